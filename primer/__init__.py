@@ -1,0 +1,38 @@
+"""A primer on ill-posed PDEs and grid-dependent computations.
+
+The package reproduces Appendix 2 of Barker, Schaeffer, Shearer & Gray, "Well-posed continuum equations for granular
+flow with compressibility and mu(I)-rheology", Proc. R. Soc. A 473 (2017), and that paper's dispersion analysis.
+
+Public names are loaded when they are first asked for, so ``import primer`` costs no more than ``import numpy``.
+"""
+
+from importlib import import_module
+
+__version__ = "0.1.0"
+
+_HOME = {
+    "BackwardHeat": "problems.heat",
+    "Toy": "problems.toy",
+    "Run": "schemes.run",
+    "Seed": "schemes.run",
+    "Stop": "schemes.run",
+    "ftcs": "schemes.ftcs",
+}
+_ROOMS = ("problems", "schemes", "analysis", "granular", "study", "view")
+
+__all__ = sorted(_HOME)
+
+
+def __getattr__(name):
+    """Load a public name, or one of the package's rooms, on first use."""
+    if name in _ROOMS:
+        return import_module(f"{__name__}.{name}")
+    if name not in _HOME:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    value = getattr(import_module(f"{__name__}.{_HOME[name]}"), name)
+    globals()[name] = value
+    return value
+
+
+def __dir__():
+    return sorted({*globals(), *_HOME, *_ROOMS})

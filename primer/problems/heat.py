@@ -1,0 +1,125 @@
+"""The backward heat equation, eq. (backward-heat): the classic ill-posed problem, solved mode by mode."""
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+from scipy.special import beta
+
+from primer.checks import integer, real, real_array
+
+
+def tendency(u_xx):
+    """u_t of eq. (backward-heat), point by point: the one text of the equation."""
+    return -u_xx
+
+
+@dataclass(frozen=True)
+class BackwardHeat:
+    """The backward heat equation u_t = -u_xx, eq. (backward-heat), from u = amplitude sin(xi x) (dimensionless).
+
+    On the circle x in [-pi, pi) of the computations the wavenumber xi is a whole number.
+
+    Parameters
+    ----------
+    xi : int             the wavenumber of the initial data, xi >= 1
+    amplitude : float    its amplitude
+
+    Raises
+    ------
+    TypeError, ValueError    if xi is not an integer >= 1 or amplitude is not a finite real number
+    """
+
+    xi: int = 1
+    amplitude: float = 1.0
+    fields: ClassVar[tuple[str, ...]] = ("u",)
+
+    def __post_init__(self):
+        object.__setattr__(self, "xi", integer("xi", self.xi, least=1))
+        object.__setattr__(self, "amplitude", real("amplitude", self.amplitude))
+
+    def initial(self, x):
+        """(u,) at t = 0; x of any shape."""
+        return (self.amplitude * np.sin(self.xi * x),)
+
+    def steady(self, x):
+        """(0,): the trivial solution that the paper perturbs."""
+        return (np.zeros_like(x),)
+
+    def exact(self, x, t):
+        """(u,) at time t: the mode of the initial data, grown by e^{xi^2 t}."""
+        return (self.amplitude * mode(self.xi, x, t),)
+
+    def rhs(self, x, state, derivative):
+        """(u_t,) of eq. (backward-heat), where ``derivative(f, m)`` gives the m-th x-derivative of a field on x."""
+        (u,) = state
+        return (tendency(derivative(u, 2)),)
+
+    def symbol(self, xi, multiplier=None):
+        """The 1 x 1 symbol [[xi^2]]: e^{i xi x + lam t} grows at lam = xi^2, without bound in xi.
+
+        ``multiplier(xi, m)`` is what the m-th derivative does to e^{i xi x}; left out, it is that of the continuum.
+        Complex, of the shape of xi + (1, 1).
+        """
+        xi = real_array("xi", xi)
+        d2 = multiplier(xi, 2) if multiplier else (1j * xi) ** 2
+        return np.asarray(tendency(d2), dtype=complex)[..., None, None]
+
+
+def mode(xi, x, t):
+    """sin(xi x) e^{xi^2 t}, eq. (backward-heat-growing-sln), of the broadcast shape of its arguments."""
+    xi, x, t = real_array("xi", xi), real_array("x", x), real_array("t", t)
+    return np.sin(xi * x) * np.exp(xi**2 * t)
+
+
+def scaled_amplitude(xi, t, p):
+    """sup over x of |xi|^-p |sin(xi x)| e^{xi^2 t}, eq. (backward-heat-blow-up).
+
+    At t = 0 it tends to zero as xi -> infinity (in C^k if p > k); at any t > 0 to infinity: Hadamard's third condition
+    fails.
+    """
+    xi, t = real_array("xi", xi), real_array("t", t)
+    return np.abs(xi) ** -real("p", p, least=0) * np.exp(xi**2 * t)
+
+
+def abs_sin_coefficients(p, m_max):
+    """Fourier coefficients c_0, c_2, ..., c_{2 m_max} of |sin x|^p = sum c_n e^{inx}; those of odd n are zero.
+
+    In closed form::
+
+        c_{2m} = (-1)^m Gamma(p+1) / (2^p Gamma(1+p/2+m) Gamma(1+p/2-m))
+
+    computed from c_0 = B((p+1)/2, 1/2)/pi and c_{2m+2}/c_{2m} = (m - p/2)/(m + 1 + p/2), which overflows nowhere and ends
+    exactly in zeros for even p. For other p, c_{2m} ~ -(sin(pi p/2) Gamma(p+1)/(pi 2^p)) m^{-p-1}.
+
+    Parameters
+    ----------
+    p : float      the power, p >= 0
+    m_max : int    the last m, m_max >= 0
+
+    Returns
+    -------
+    array of shape (m_max + 1,)
+    """
+    p, m_max = real("p", p, least=0), integer("m_max", m_max, least=0)
+    m = np.arange(m_max)
+    ratios = (m - p / 2) / (m + 1 + p / 2)
+    return np.cumprod(np.concatenate([[beta((p + 1) / 2, 0.5) / np.pi], ratios]))
+
+
+def abs_sin_log_norms(p, t, m_max):
+    """ln of sum_{|n| <= 2M} e^{2 n^2 t} |c_n|^2 for M = 0 ... m_max: the partial sums of eq. (L2norm-sln).
+
+    A solution of the backward heat equation from |sin x|^p that lives to time t needs them to converge. They do for every
+    t when p is an even integer (the series ends) and for no t > 0 otherwise.
+
+    Returns
+    -------
+    array of shape (m_max + 1,)
+    """
+    c, t = abs_sin_coefficients(p, m_max), real("t", t, least=0)
+    n = 2 * np.arange(m_max + 1)
+    twice = np.where(n == 0, 1, 2)  # n and -n
+    terms = np.full(n.shape, -np.inf)
+    np.log(twice * c**2, out=terms, where=c != 0)
+    return np.logaddexp.accumulate(terms + 2.0 * n**2 * t)

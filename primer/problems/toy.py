@@ -1,0 +1,101 @@
+"""The paper's toy system, eq. (toy-pde): well posed where u > 0, ill posed where u < 0."""
+
+import math
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+
+from primer.checks import real, real_array
+
+
+def tendency(u, v, u_x, v_x, v_xx, sin_x, eps):
+    """(u_t, v_t) of eq. (toy-pde), point by point.
+
+    The one text of the equation: arrays, machine numbers inside the compiled kernel, multiprecision numbers and symbols
+    all pass through it, in this order of operations.
+    """
+    return v_x, eps * u * v_xx + u_x - v - sin_x
+
+
+@dataclass(frozen=True)
+class Toy:
+    """The toy system of eq. (toy-pde), on x in [-pi, pi) with period 2 pi (dimensionless)::
+
+        u_t = v_x
+        v_t = eps u v_xx + u_x - v - sin x
+
+    from u = a, v = -sin(x)/2, eq. (toy-initial). The steady state u = a - cos x, v = 0 of eq. (toy-steady) is positive
+    everywhere when a > 1; for a < 1 it dips below zero, and there the equations are ill posed.
+
+    Parameters
+    ----------
+    a : float      the base state: the mean of u, which the equations conserve
+    eps : float    the coefficient of the second derivative, eps >= 0
+
+    Raises
+    ------
+    TypeError, ValueError    if a or eps is not a finite real number, or eps < 0
+    """
+
+    a: float
+    eps: float = 0.01
+    fields: ClassVar[tuple[str, ...]] = ("u", "v")
+
+    def __post_init__(self):
+        object.__setattr__(self, "a", real("a", self.a))
+        object.__setattr__(self, "eps", real("eps", self.eps, least=0))
+
+    def initial(self, x):
+        """(u, v) at t = 0, eq. (toy-initial); x of any shape."""
+        return np.full_like(x, self.a), -np.sin(x) / 2
+
+    def steady(self, x):
+        """(u, v) as t -> infinity, eq. (toy-steady); a steady state for every eps, stable only where u > 0."""
+        return self.a - np.cos(x), np.zeros_like(x)
+
+    def exact(self, x, t):
+        """(u, v) at time t for eps = 0, eq. (toy-sln), of the broadcast shape of x and t.
+
+        With w = sqrt(3)/2 the paper's sums of cosines are products::
+
+            u = a - cos x + e^{-t/2} cos(x) cos(w t)
+            v = -e^{-t/2} sin(x) sin(w t + pi/6)
+
+        Raises
+        ------
+        ValueError    if eps is not 0: no closed form is known there
+        """
+        if self.eps != 0:
+            raise ValueError(f"eps must be 0 for the exact solution (toy-sln), got {self.eps!r}; use a numerical one")
+        x, t = real_array("x", x), real_array("t", t)
+        w, decay = math.sqrt(3) / 2, np.exp(-t / 2)
+        u = self.a - np.cos(x) + decay * np.cos(x) * np.cos(w * t)
+        v = -decay * np.sin(x) * np.sin(w * t + math.pi / 6)
+        return u, v
+
+    def rhs(self, x, state, derivative):
+        """(u_t, v_t) of eq. (toy-pde), where ``derivative(f, m)`` gives the m-th x-derivative of a field on x."""
+        u, v = state
+        return tendency(u, v, derivative(u, 1), derivative(v, 1), derivative(v, 2), np.sin(x), self.eps)
+
+    def symbol(self, xi, u, v_xx=0.0, multiplier=None):
+        """The frozen-coefficient matrix of eq. (toy-mat): perturbations e^{i xi x + lam t} grow at its eigenvalues lam.
+
+        Parameters
+        ----------
+        xi : array        wavenumbers, of shape s
+        u, v_xx : array   the base state (u*, v_xx*) at the frozen point, broadcast against xi
+        multiplier        ``multiplier(xi, m)`` is what the m-th derivative does to e^{i xi x}; left out, it is that of
+                          the continuum, (i xi)^m, and a grid's ``Grid.multiplier`` gives the discrete symbol
+
+        Returns
+        -------
+        complex array of shape s + (2, 2), with det(lam - S) = lam^2 + (1 + eps u* xi^2) lam + xi^2 - i eps xi v_xx*
+        """
+        xi, u, v_xx = np.broadcast_arrays(real_array("xi", xi), real_array("u", u), real_array("v_xx", v_xx))
+        d1, d2 = (multiplier(xi, m) if multiplier else (1j * xi) ** m for m in (1, 2))
+        S = np.empty((*xi.shape, 2, 2), dtype=complex)
+        S[..., 0, 0], S[..., 0, 1] = 0, d1
+        S[..., 1, 0], S[..., 1, 1] = d1 + self.eps * v_xx, self.eps * u * d2 - 1
+        return S

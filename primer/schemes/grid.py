@@ -1,0 +1,80 @@
+"""The periodic grid, and stencils that carry their own Fourier multipliers."""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from primer.checks import integer
+
+
+@dataclass(frozen=True)
+class Stencil:
+    """A finite-difference approximation of the m-th derivative::
+
+        f^(m)(x_j) ~ [sum_k weights[k] f(x_j + offsets[k] h)] / (denominator h^m)
+
+    with an error of order h^order on smooth f. The sum is taken in the order written.
+    """
+
+    derivative: int
+    order: int
+    offsets: tuple[int, ...]
+    weights: tuple[int, ...]
+    denominator: int
+
+    def scale(self, h):
+        """1/(denominator h^m), the factor by which a step multiplies the weighted sum."""
+        return 1 / (self.denominator * math.prod([h] * self.derivative))
+
+    def __call__(self, f, h):
+        """Apply it to samples f of shape (..., n) of a periodic function on a grid of spacing h."""
+        total = self.weights[0] * np.roll(f, -self.offsets[0], axis=-1)
+        for offset, weight in zip(self.offsets[1:], self.weights[1:], strict=True):
+            total = total + weight * np.roll(f, -offset, axis=-1)
+        return total * self.scale(h)
+
+    def multiplier(self, xi, h):
+        """What it does to e^{i xi x}: complex, of the shape of xi."""
+        total = sum(w * np.exp(1j * np.asarray(xi) * o * h) for o, w in zip(self.offsets, self.weights, strict=True))
+        return total * self.scale(h)
+
+
+#: The paper's stencils: the central differences of second order for the first and the second derivative.
+CENTRAL = {
+    1: Stencil(1, 2, (1, -1), (1, -1), 2),
+    2: Stencil(2, 2, (1, 0, -1), (1, -2, 1), 1),
+}
+
+
+@dataclass(frozen=True)
+class Grid:
+    """The periodic grid x_j = -pi + j h, j = 0 ... n-1, with h = 2 pi/n.
+
+    Raises
+    ------
+    TypeError, ValueError    if n is not an integer >= 4
+    """
+
+    n: int
+
+    def __post_init__(self):
+        object.__setattr__(self, "n", integer("n", self.n, least=4))
+
+    @property
+    def h(self):
+        """The spacing 2 pi/n."""
+        return 2 * math.pi / self.n
+
+    @property
+    def x(self):
+        """The points, of shape (n,)."""
+        return -math.pi + self.h * np.arange(self.n)
+
+    def derivative(self, f, m):
+        """The m-th derivative of f by central differences of second order, m = 1 or 2."""
+        return CENTRAL[m](f, self.h)
+
+    def multiplier(self, xi, m):
+        """What that derivative does to e^{i xi x}: i sin(xi h)/h for m = 1, -(4/h^2) sin^2(xi h/2) for m = 2."""
+        return CENTRAL[m].multiplier(xi, self.h)

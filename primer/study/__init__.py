@@ -1,0 +1,1 @@
+"""Many runs, one question: the only place that loops over runs."""

@@ -1,0 +1,1 @@
+"""Pictures: a style sheet and ``draw_*(axes, result)`` functions shared by figures, notebooks and explorers."""
