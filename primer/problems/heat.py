@@ -6,6 +6,7 @@ from typing import ClassVar
 import numpy as np
 from scipy.special import beta
 
+from primer.arithmetic import sin
 from primer.checks import integer, real, real_array
 
 
@@ -40,7 +41,7 @@ class BackwardHeat:
 
     def initial(self, x):
         """(u,) at t = 0; x of any shape."""
-        return (self.amplitude * np.sin(self.xi * x),)
+        return (self.amplitude * sin(self.xi * x),)
 
     def steady(self, x):
         """(0,): the trivial solution that the paper perturbs."""
@@ -50,7 +51,10 @@ class BackwardHeat:
         """(u,) at time t: the mode of the initial data, grown by e^{xi^2 t}."""
         return (self.amplitude * mode(self.xi, x, t),)
 
-    def rhs(self, x, state, derivative):
+    def forcing(self, x):
+        """Nothing: the equation does not depend on x."""
+
+    def rhs(self, x, state, derivative, forcing=None):
         """(u_t,) of eq. (backward-heat), where ``derivative(f, m)`` gives the m-th x-derivative of a field on x."""
         (u,) = state
         return (tendency(derivative(u, 2)),)
@@ -89,8 +93,8 @@ def abs_sin_coefficients(p, m_max):
 
         c_{2m} = (-1)^m Gamma(p+1) / (2^p Gamma(1+p/2+m) Gamma(1+p/2-m))
 
-    computed from c_0 = B((p+1)/2, 1/2)/pi and c_{2m+2}/c_{2m} = (m - p/2)/(m + 1 + p/2), which overflows nowhere and ends
-    exactly in zeros for even p. For other p, c_{2m} ~ -(sin(pi p/2) Gamma(p+1)/(pi 2^p)) m^{-p-1}.
+    computed from c_0 = B((p+1)/2, 1/2)/pi and c_{2m+2}/c_{2m} = (m - p/2)/(m + 1 + p/2), which overflows nowhere and
+    ends exactly in zeros for even p. For other p, c_{2m} ~ -(sin(pi p/2) Gamma(p+1)/(pi 2^p)) m^{-p-1}.
 
     Parameters
     ----------
@@ -110,8 +114,8 @@ def abs_sin_coefficients(p, m_max):
 def abs_sin_log_norms(p, t, m_max):
     """ln of sum_{|n| <= 2M} e^{2 n^2 t} |c_n|^2 for M = 0 ... m_max: the partial sums of eq. (L2norm-sln).
 
-    A solution of the backward heat equation from |sin x|^p that lives to time t needs them to converge. They do for every
-    t when p is an even integer (the series ends) and for no t > 0 otherwise.
+    A solution of the backward heat equation from |sin x|^p that lives to time t needs them to converge. They do for
+    every t when p is an even integer (the series ends) and for no t > 0 otherwise.
 
     Returns
     -------

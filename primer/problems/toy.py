@@ -6,6 +6,7 @@ from typing import ClassVar
 
 import numpy as np
 
+from primer.arithmetic import cos, sin
 from primer.checks import real, real_array
 
 
@@ -48,11 +49,11 @@ class Toy:
 
     def initial(self, x):
         """(u, v) at t = 0, eq. (toy-initial); x of any shape."""
-        return np.full_like(x, self.a), -np.sin(x) / 2
+        return np.full_like(x, self.a), -sin(x) / 2
 
     def steady(self, x):
         """(u, v) as t -> infinity, eq. (toy-steady); a steady state for every eps, stable only where u > 0."""
-        return self.a - np.cos(x), np.zeros_like(x)
+        return self.a - cos(x), np.zeros_like(x)
 
     def exact(self, x, t):
         """(u, v) at time t for eps = 0, eq. (toy-sln), of the broadcast shape of x and t.
@@ -74,10 +75,19 @@ class Toy:
         v = -decay * np.sin(x) * np.sin(w * t + math.pi / 6)
         return u, v
 
-    def rhs(self, x, state, derivative):
-        """(u_t, v_t) of eq. (toy-pde), where ``derivative(f, m)`` gives the m-th x-derivative of a field on x."""
+    def forcing(self, x):
+        """sin x: what the right-hand side needs of x alone, so that a time loop computes it once."""
+        return sin(x)
+
+    def rhs(self, x, state, derivative, forcing=None):
+        """(u_t, v_t) of eq. (toy-pde).
+
+        ``derivative(f, m)`` gives the m-th x-derivative of a field on x; ``forcing`` is ``self.forcing(x)``, where it
+        is at hand.
+        """
         u, v = state
-        return tendency(u, v, derivative(u, 1), derivative(v, 1), derivative(v, 2), np.sin(x), self.eps)
+        sin_x = self.forcing(x) if forcing is None else forcing
+        return tendency(u, v, derivative(u, 1), derivative(v, 1), derivative(v, 2), sin_x, self.eps)
 
     def symbol(self, xi, u, v_xx=0.0, multiplier=None):
         """The frozen-coefficient matrix of eq. (toy-mat): perturbations e^{i xi x + lam t} grow at its eigenvalues lam.

@@ -29,9 +29,12 @@ class Stencil:
 
     def __call__(self, f, h):
         """Apply it to samples f of shape (..., n) of a periodic function on a grid of spacing h."""
-        total = self.weights[0] * np.roll(f, -self.offsets[0], axis=-1)
-        for offset, weight in zip(self.offsets[1:], self.weights[1:], strict=True):
-            total = total + weight * np.roll(f, -offset, axis=-1)
+        reach, n = max(map(abs, self.offsets)), f.shape[-1]
+        ghosts = np.concatenate((f[..., n - reach :], f, f[..., :reach]), axis=-1)
+        total = 0
+        for offset, weight in zip(self.offsets, self.weights, strict=True):
+            term = ghosts[..., reach + offset : reach + offset + n]
+            total = total + (term if weight == 1 else weight * term)
         return total * self.scale(h)
 
     def multiplier(self, xi, h):

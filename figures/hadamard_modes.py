@@ -1,0 +1,48 @@
+"""Hadamard's third condition fails: the scaled modes |xi|^-p sin(xi x) e^{xi^2 t} of eq. (backward-heat-blow-up).
+
+At t = 0 (dotted) the modes tend to zero as xi grows, with p > k derivatives as well; at any t > 0, however small,
+they tend to infinity. Each curve turns at xi = sqrt(p/(2t)): a later wavenumber for an earlier time, but always a
+finite one. So an arbitrarily small perturbation makes an arbitrarily large difference after an arbitrarily short
+time.
+"""
+
+import numpy as np
+from sidecar import close
+
+from primer.problems.heat import scaled_amplitude
+from primer.view.style import STEADY, new_figure
+
+POWERS, TIMES = (2, 6), (0.1, 0.01, 0.001)
+XI = np.geomspace(1, 400, 2000)
+
+
+def compute():
+    # Beyond exponents of 50, far above the picture, the curves end.
+    return {(p, t): scaled_amplitude(XI[XI**2 * t < 50], t, p) for p in POWERS for t in (0.0, *TIMES)}
+
+
+def numbers(sizes):
+    claims = {}
+    for p in POWERS:
+        claims[f"p{p}_t0_xi400"] = close(sizes[p, 0.0][-1], rtol=1e-9, why="|xi|^-p: small data")
+        for t in TIMES:
+            turn = XI[np.argmin(sizes[p, t])]
+            claims[f"p{p}_t{t:g}_turns_at"] = close(turn, rtol=0.004, why="sqrt(p/(2t)), to the spacing of xi")
+    return claims
+
+
+def draw(sizes):
+    figure, axes = new_figure(
+        title=r"Small data, large solutions: $\sup_x\,|\xi|^{-p}\,|\sin(\xi x)|\,e^{\xi^2 t}$", sharey=True
+    )
+    for ax, p, letter in zip(axes, POWERS, "ab", strict=True):
+        ax.loglog(XI, sizes[p, 0.0], color=STEADY, ls=":", label="t = 0")
+        for t, ls in zip(TIMES, ("-", "--", "-."), strict=True):
+            (line,) = ax.loglog(XI[: sizes[p, t].size], sizes[p, t], ls=ls, label=f"t = {t:g}")
+            turn = np.sqrt(p / (2 * t))
+            ax.plot(turn, turn**-p * np.exp(p / 2), "o", color=line.get_color())
+        ax.set(title=f"({letter}) p = {p}", xlabel=r"wavenumber $\xi$", xlim=(1, 400), ylim=(1e-16, 1e8))
+        ax.label_outer()
+    axes[0].set_ylabel("size of the mode")
+    axes[0].legend(title="dots: turn at $\\sqrt{p/2t}$")
+    return figure

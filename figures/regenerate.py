@@ -1,0 +1,108 @@
+"""Regenerate the figures, each with a JSON of its numbers: ``python figures/regenerate.py [NAME ...]``."""
+
+import argparse
+import json
+import os
+import sys
+from concurrent.futures import ProcessPoolExecutor, as_completed
+from importlib import import_module
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+import sidecar
+from tqdm import tqdm
+
+from primer.view.style import FORMATS, save, styled
+
+HERE = Path(__file__).resolve().parent
+NAMES = sorted(path.stem for path in HERE.glob("*.py") if path.stem not in ("regenerate", "sidecar"))
+
+
+def main(arguments=None):
+    options = _options(arguments)
+    if options.list:
+        for name in NAMES:
+            print(f"{name:18s} {import_module(name).__doc__.splitlines()[0]}")
+        return 0
+    job, tell = (_check, "checked") if options.check else (_make, "written")
+    problems = []
+    with ProcessPoolExecutor(min(options.jobs, len(options.names))) as pool:
+        waiting = {pool.submit(job, name, options.out, options.formats): name for name in options.names}
+        try:
+            with tqdm(total=len(waiting), unit="figure", disable=None) as bar:
+                for done in as_completed(waiting):
+                    name = waiting[done]
+                    problems += [f"{name}: {sentence}" for sentence in done.result()]
+                    bar.set_postfix_str(name)
+                    bar.update()
+        except KeyboardInterrupt:
+            pool.shutdown(wait=False, cancel_futures=True)
+            print("interrupted: what was not finished is as it was before", file=sys.stderr)
+            return 130
+    for sentence in sorted(problems):
+        print(sentence, file=sys.stderr)
+    good = len(options.names) - len({sentence.split(":")[0] for sentence in problems})
+    print(f"{good} of {len(options.names)} figures {tell} in {options.out}")
+    return 1 if problems else 0
+
+
+def _make(name, out, formats):
+    """Compute one figure; write its pictures and numbers aside, then put them in place."""
+    script = import_module(name)
+    result = script.compute()
+    with TemporaryDirectory(dir=out, prefix=".regenerate-") as aside, styled():
+        files = [Path(aside, f"{name}.json"), *(Path(aside, f"{name}.{ending}") for ending in formats)]
+        files[0].write_text(sidecar.dumps(script.numbers(result)), encoding="utf-8")
+        for picture in files[1:]:
+            save(script.draw(result), picture)
+        for file in files:
+            os.replace(file, Path(out, file.name))
+    return []
+
+
+def _check(name, out, formats):
+    """Compute one figure's numbers again; return a sentence for each that left the stored one."""
+    try:
+        stored = json.loads(Path(out, f"{name}.json").read_text(encoding="utf-8"))
+    except (OSError, ValueError) as error:
+        return [f"no stored numbers to compare with ({error})"]
+    script = import_module(name)
+    return sidecar.drift(stored, script.numbers(script.compute()))
+
+
+def _options(arguments):
+    parser = argparse.ArgumentParser(prog="regenerate.py", description=__doc__, allow_abbrev=False)
+    parser.add_argument("names", nargs="*", metavar="NAME", help="figures to make (default: all; see --list)")
+    parser.add_argument("--list", action="store_true", help="list the figures and what they show, and stop")
+    parser.add_argument(
+        "--out", type=Path, default=HERE, metavar="DIR", help="folder of the pictures (default: figures/)"
+    )
+    parser.add_argument(
+        "--check", action="store_true", help="write nothing: recompute and compare with the stored JSON"
+    )
+    parser.add_argument(
+        "--jobs", type=int, default=os.cpu_count() or 1, metavar="N", help="processes (default: all cores)"
+    )
+    parser.add_argument("--formats", default="svg", help=f"some of {','.join(FORMATS)} (default: svg)")
+    options = parser.parse_args(arguments)
+    for name in options.names:
+        if name not in NAMES:
+            parser.error(f"NAME must be one of {', '.join(NAMES)}, got {name!r}")
+    options.names = list(dict.fromkeys(options.names)) or NAMES
+    if options.jobs < 1:
+        parser.error(f"--jobs must be >= 1, got {options.jobs}")
+    options.formats = list(dict.fromkeys(options.formats.split(",")))
+    for ending in options.formats:
+        if ending not in FORMATS:
+            parser.error(f"--formats must be some of {','.join(FORMATS)}, got {ending!r}")
+    if not (options.check or options.list):
+        try:
+            options.out.mkdir(parents=True, exist_ok=True)
+            TemporaryDirectory(dir=options.out, prefix=".regenerate-").cleanup()
+        except OSError as error:
+            parser.error(f"--out must be a folder that can be written, got {str(options.out)!r} ({error.strerror})")
+    return options
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,42 @@
+"""What the scheme does exactly: its own steady state, the floor it leaves in Dist, and each mode's growth per step."""
+
+import math
+
+import numpy as np
+
+from primer.checks import real
+from primer.schemes.grid import Grid
+
+
+def discrete_steady(toy, x, h):
+    """(u, v) of the steady state of the central differences: u = a - (h/sin h) cos x, v = 0.
+
+    A central first difference turns cos x into -(sin h/h) sin x; u must make up for it. It differs from eq.
+    (toy-steady) by h^2/6 to leading order.
+    """
+    return toy.a - (h / math.sin(h)) * np.cos(x), np.zeros_like(x)
+
+
+def dist_floor(n):
+    """h/sin h - 1 with h = 2 pi/n, n >= 4: the Dist of eq. (toy-err) on which a converged run comes to rest.
+
+    It is attained at x = -pi, a point of every grid, and is h^2/6 to leading order.
+    """
+    h = Grid(n).h
+    return h / math.sin(h) - 1
+
+
+def amplification(symbol, dt):
+    """Factors by which one step of forward Euler multiplies the modes of a symbol: the eigenvalues of 1 + dt S.
+
+    Parameters
+    ----------
+    symbol : (..., m, m) array    such as ``toy.symbol(xi, u, multiplier=grid.multiplier)``
+    dt : float                    step, dt > 0
+
+    Returns
+    -------
+    complex array of shape (..., m), with the largest modulus first
+    """
+    factors = 1 + real("dt", dt, above=0) * np.linalg.eigvals(symbol)
+    return np.take_along_axis(factors, np.argsort(-np.abs(factors), axis=-1), axis=-1)

@@ -1,0 +1,98 @@
+"""Grid refinement: the same problem on finer and finer grids."""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from primer.problems.heat import BackwardHeat
+from primer.schemes.discrete import amplification
+from primer.schemes.ftcs import ftcs
+from primer.schemes.grid import Grid
+from primer.schemes.run import Run, Seed, Stop
+
+
+@dataclass(frozen=True, eq=False)
+class Refinement:
+    """Runs of one problem on several grids: ``runs[i]`` has ``n[i]`` points of spacing ``h[i]``."""
+
+    runs: tuple[Run, ...]
+
+    @property
+    def n(self):
+        """(k,) grid points."""
+        return np.array([run.n for run in self.runs])
+
+    @property
+    def h(self):
+        """(k,) spacings 2 pi/n."""
+        return 2 * math.pi / self.n
+
+    @property
+    def dist_end(self):
+        """(k,) Dist of eq. (toy-err) where each run stopped."""
+        return np.array([run.dist[-1] for run in self.runs], dtype=float)
+
+    @property
+    def t_blow_up(self):
+        """(k,) blow-up times; infinite where a run did not blow up."""
+        return np.array([run.t_stop if run.stop is Stop.BLEW_UP else math.inf for run in self.runs])
+
+
+def refine(problem, ns, dt=1e-3, seed=None, **options):
+    """March ``problem`` on each of the grids ``ns`` by :func:`primer.ftcs`.
+
+    ``dt`` and ``seed`` may also be functions of n; the other options are those of ``ftcs``.
+    """
+
+    def at(n, value):
+        return value(n) if callable(value) and not isinstance(value, Seed) else value
+
+    return Refinement(tuple(ftcs(problem, n, at(n, dt), seed=at(n, seed), **options) for n in ns))
+
+
+@dataclass(frozen=True, eq=False)
+class HeatOnset:
+    """When round-off, or a stated sawtooth, takes over the backward heat equation on finer and finer grids."""
+
+    refinement: Refinement
+    departure: tuple[np.ndarray, ...]  # for each run: |Dist - the scheme's own solution from exact arithmetic|
+    tolerance: float
+    t: np.ndarray  # (k,) first time at which the departure exceeds the tolerance; infinite if never
+    predicted: np.ndarray  # (k,) the same for the stated sawtooth, in closed form; infinite without one
+
+
+def heat_onset(ns, courant=0.02, tolerance=1e-2, sawtooth=0.0):
+    """March u_t = -u_xx from sin x on grids ``ns`` with dt = courant h^2 and see when the grid takes over.
+
+    In exact arithmetic each step multiplies sin x by 1 + dt (4/h^2) sin^2(h/2). Whatever lives at the grid's own
+    wavenumber pi/h is multiplied by 1 + 4 courant, so that a seed of size s reaches ``tolerance`` at::
+
+        t = dt ln(tolerance/s)/ln(1 + 4 courant),   near ln(tolerance/s) h^2/4 for small dt
+
+    Halving h divides it by four.
+
+    Parameters
+    ----------
+    ns               grids, of multiples of four points (so that pi/2, where sin x is largest, is a grid point)
+    courant          dt/h^2
+    tolerance        the departure that counts as visible, where |u| is about 1
+    sawtooth         amplitude of a stated seed (-1)^j; with 0 round-off is the only seed
+    """
+    rate = math.log1p(4 * courant)
+    steps = round(math.log(1e4 * tolerance / (sawtooth or 1e-18)) / rate)  # round-off starts near 1e-17
+    runs, departures, times = [], [], []
+    for n in ns:
+        grid = Grid(n)
+        dt = courant * grid.h**2
+        seed = Seed(n // 2, sawtooth, phase=0.0) if sawtooth else None
+        run = ftcs(BackwardHeat(), n, dt, steps * dt, record_every=1, seed=seed, blow_up_at=100)
+        factor = amplification(BackwardHeat().symbol(1.0, grid.multiplier), dt)[0].real
+        departure = np.abs(run.dist - factor ** np.arange(run.t.size))
+        late = np.flatnonzero(departure > tolerance)
+        runs.append(run)
+        departures.append(departure)
+        times.append(run.t[late[0]] if late.size else math.inf)
+    dt = courant * Refinement(tuple(runs)).h ** 2
+    predicted = dt * math.log(tolerance / sawtooth) / rate if sawtooth else np.full(len(runs), math.inf)
+    return HeatOnset(Refinement(tuple(runs)), tuple(departures), tolerance, np.array(times), predicted)

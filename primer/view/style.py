@@ -1,0 +1,48 @@
+"""The look of every figure, and figures that are nobody's global state."""
+
+from contextlib import contextmanager
+from pathlib import Path
+
+import matplotlib.style
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+
+_STYLE = Path(__file__).with_name("primer.mplstyle")
+U, V, STEADY, ILL = "#0072B2", "#D55E00", "#666666", "#FBE3D9"  # the colours of u, v, the steady state, and u < 0
+
+# Without dates and version numbers the same figure is the same bytes.
+_METADATA = {
+    "svg": {"Date": None, "Creator": None},
+    "png": {"Software": None},
+    "pdf": {"CreationDate": None, "Creator": None, "Producer": None},
+}
+FORMATS = tuple(_METADATA)
+
+
+@contextmanager
+def styled():
+    """The package's style sheet, for as long as the block lasts: make, draw and save figures inside."""
+    with matplotlib.style.context(["default", _STYLE]):
+        yield
+
+
+def new_figure(rows=1, columns=2, width=9.0, height=3.4, title=None, **options):
+    """(figure, axes): a matplotlib figure of its own, outside pyplot, with a grid of axes (sizes in inches)."""
+    figure = Figure(figsize=(width, height))
+    FigureCanvasAgg(figure)
+    axes = figure.subplots(rows, columns, **options)
+    if title:
+        figure.suptitle(title, x=0.01, ha="left", fontsize=11)
+    return figure, axes
+
+
+def ticks(axis, values):
+    """Label a logarithmic axis at just these values, as plain numbers."""
+    axis.set_ticks(values, [f"{value:g}" for value in values])
+    axis.set_ticks([], minor=True)
+
+
+def save(figure, path):
+    """Write ``figure`` to ``path`` as svg, png or pdf, by its ending."""
+    ending = Path(path).suffix[1:]
+    figure.savefig(path, format=ending, metadata=_METADATA[ending])
