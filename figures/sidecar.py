@@ -16,7 +16,7 @@ def within(value, low, high, why):
 
 def same(value, why):
     """A text or a whole number that a recomputation must repeat."""
-    return {"value": value, "why": why}
+    return {"value": str(value) if isinstance(value, str) else value, "why": why}
 
 
 def dumps(numbers):

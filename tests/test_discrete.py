@@ -1,0 +1,119 @@
+"""Guards the stencils and what the scheme does exactly: multipliers, steady state, growth per step."""
+
+import math
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+import pytest
+
+from primer import BackwardHeat, Toy, ftcs
+from primer.schemes.discrete import amplification, discrete_steady, dist_floor
+from primer.schemes.grid import CENTRAL, Grid
+
+
+@pytest.mark.parametrize("n", [4, 9, 30, 100])
+@pytest.mark.parametrize("m", [1, 2])
+def test_multiplier_is_what_the_stencil_does_to_an_exponential(n, m):
+    grid = Grid(n)
+    for k in range(-(n // 2), n // 2 + 1):
+        wave = np.exp(1j * k * grid.x)
+        np.testing.assert_allclose(grid.derivative(wave, m), grid.multiplier(k, m) * wave, atol=1e-11 / grid.h**m)
+
+
+def test_multipliers_are_the_closed_forms():
+    grid, xi = Grid(50), np.linspace(-40, 40, 17)
+    np.testing.assert_allclose(grid.multiplier(xi, 1), 1j * np.sin(xi * grid.h) / grid.h, atol=1e-13)
+    np.testing.assert_allclose(grid.multiplier(xi, 2), -4 / grid.h**2 * np.sin(xi * grid.h / 2) ** 2, atol=1e-11)
+    assert abs(grid.multiplier(math.pi / grid.h, 1)) < 1e-13  # blind to the sawtooth
+
+
+@pytest.mark.parametrize("m", [1, 2])
+def test_stencils_reach_their_order(m):
+    h = np.array([1e-2, 5e-3])
+    error = [abs(CENTRAL[m].multiplier(1.0, step) - 1j**m) for step in h]
+    assert np.log2(error[0] / error[1]) == pytest.approx(CENTRAL[m].order, abs=0.01)
+
+
+def test_grid_is_the_papers():
+    grid = Grid(100)
+    assert grid.x[0] == -math.pi
+    assert grid.x.size == 100
+    np.testing.assert_allclose(np.diff(grid.x), 2 * math.pi / 100)
+
+
+@pytest.mark.parametrize("n", [4, 7, 30, 101])
+def test_discrete_steady_state_is_steady(n):
+    """The right-hand side of the differences vanishes on it, and one step of the scheme leaves it."""
+    grid, toy = Grid(n), Toy(0.5, eps=0.3)
+    rates = toy.rhs(grid.x, discrete_steady(toy, grid.x, grid.h), grid.derivative)
+    np.testing.assert_allclose(rates, np.zeros((2, n)), atol=1e-13)
+
+
+@pytest.mark.parametrize(("n", "floor"), [(100, 6.582768e-4), (30, 7.348406e-3)])
+def test_dist_floor(n, floor):
+    assert dist_floor(n) == pytest.approx(floor, rel=1e-6)
+    grid, toy = Grid(n), Toy(1.5)
+    difference = discrete_steady(toy, grid.x, grid.h)[0] - toy.steady(grid.x)[0]
+    assert dist_floor(n) == pytest.approx(np.abs(difference).max(), rel=1e-12)
+
+
+@dataclass(frozen=True)
+class Frozen:
+    """The toy system linearised about frozen (u*, v_xx*), eq. (toy-pde-full-lin), from one real field pair."""
+
+    eps: float
+    u_star: float
+    v_xx_star: float
+    start: np.ndarray
+    fields: ClassVar[tuple[str, ...]] = ("u", "v")
+
+    def initial(self, x):
+        return tuple(self.start)
+
+    def steady(self, x):
+        return np.zeros_like(x), np.zeros_like(x)
+
+    def forcing(self, x):
+        return None
+
+    def rhs(self, x, state, derivative, forcing=None):
+        u, v = state
+        v_t = self.eps * (self.u_star * derivative(v, 2) + self.v_xx_star * u) + derivative(u, 1) - v
+        return derivative(v, 1), v_t
+
+
+@pytest.mark.parametrize("mode", [1, 7, 15])
+@pytest.mark.parametrize(("u_star", "v_xx_star"), [(1.5, 0.0), (-0.5, 0.3)])
+def test_one_step_multiplies_a_mode_by_one_plus_dt_lambda(mode, u_star, v_xx_star):
+    n, dt, eps = 30, 0.02, 0.05
+    grid = Grid(n)
+    S = Toy(1.0, eps).symbol(float(mode), u_star, v_xx_star, grid.multiplier)
+    lam, vectors = np.linalg.eig(S)
+    np.testing.assert_allclose(
+        np.sort_complex(amplification(S, dt)), np.sort_complex(1 + dt * lam), rtol=1e-12
+    )  # the library's factors are those
+    for k in range(2):
+        wave = vectors[:, k, None] * np.exp(1j * mode * grid.x)
+        parts = [ftcs(Frozen(eps, u_star, v_xx_star, part), n, dt, dt).final for part in (wave.real, wave.imag)]
+        stepped = np.array(parts[0]) + 1j * np.array(parts[1])
+        np.testing.assert_allclose(stepped, (1 + dt * lam[k]) * wave, atol=1e-12)
+
+
+@pytest.mark.parametrize("xi", [1, 5, 16])
+def test_backward_heat_grows_by_its_amplification_factor(xi):
+    n, dt, steps = 64, 1e-4, 40
+    grid = Grid(n)
+    factor = 1 + dt * 4 / grid.h**2 * math.sin(xi * grid.h / 2) ** 2  # physics.md, section 2
+    assert amplification(BackwardHeat().symbol(float(xi), grid.multiplier), dt)[0] == pytest.approx(factor, rel=1e-14)
+    run = ftcs(BackwardHeat(xi), n, dt, steps * dt)
+    np.testing.assert_allclose(run.final[0], factor**steps * np.sin(xi * grid.x), atol=1e-12)
+
+
+def test_at_eps_0_the_scheme_is_unstable_just_above_dt_h2():
+    """At eps = 0 a factor exceeds 1 iff dt > h^2: numerical instability, a matter of dt alone."""
+    grid = Grid(64)
+    xi = np.arange(33.0)
+    S = Toy(1.0, eps=0).symbol(xi, 1.0, multiplier=grid.multiplier)
+    for ratio, stable in ((0.99, True), (1.01, False)):
+        assert bool(np.abs(amplification(S, ratio * grid.h**2)).max() <= 1 + 1e-14) is stable

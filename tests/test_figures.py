@@ -1,0 +1,146 @@
+"""Guards the main job: figures regenerate byte for byte, their numbers are held to, bad calls cost nothing."""
+
+import json
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+FIGURES = Path(__file__).parents[1] / "figures"
+sys.path.insert(0, str(FIGURES))
+
+import regenerate  # noqa: E402
+import sidecar  # noqa: E402
+
+
+def run(*arguments, **options):
+    """``python figures/regenerate.py`` as a user types it."""
+    command = [sys.executable, "-W", "error", str(FIGURES / "regenerate.py"), *map(str, arguments)]
+    return subprocess.run(command, capture_output=True, text=True, **options)
+
+
+@pytest.fixture(scope="module")
+def made(tmp_path_factory):
+    """All figures in all formats, made twice."""
+    folders = [tmp_path_factory.mktemp(name) for name in ("first", "second")]
+    for folder in folders:
+        result = run("--out", folder, "--formats", "svg,png,pdf")
+        assert result.returncode == 0, result.stderr
+    return folders
+
+
+def test_every_script_makes_every_format(made):
+    expected = {f"{name}.{ending}" for name in regenerate.NAMES for ending in ("json", "svg", "png", "pdf")}
+    assert {"fig31", "fig32", "fig33", "toy_refinement", "heat_refinement", "hadamard_modes", "abs_sin"} <= set(
+        regenerate.NAMES
+    )
+    assert {path.name for path in made[0].iterdir()} == expected  # and nothing else is left behind
+
+
+def test_pictures_are_the_same_bytes_each_time(made):
+    first, second = made
+    for path in first.iterdir():
+        assert path.read_bytes() == (second / path.name).read_bytes(), path.name
+
+
+def test_committed_numbers_are_what_is_computed():
+    result = run("--check")
+    assert result.returncode == 0, result.stderr
+    assert f"{len(regenerate.NAMES)} of {len(regenerate.NAMES)} figures checked" in result.stdout
+
+
+def test_committed_pictures_and_numbers_are_complete():
+    for name in regenerate.NAMES:
+        assert (FIGURES / f"{name}.svg").read_text(encoding="utf-8").startswith("<?xml")
+        claims = json.loads((FIGURES / f"{name}.json").read_text(encoding="utf-8"))
+        assert claims
+        assert all(claim["why"] for claim in claims.values())
+
+
+def test_check_names_what_drifted_and_writes_nothing(made, tmp_path):
+    folder = shutil.copytree(made[0], tmp_path / "copy")
+    stored = json.loads((folder / "fig31.json").read_text())
+    stored["dist_end"]["value"] *= 1 + 1e-6
+    stored["stop"]["value"] = "blew_up"
+    (folder / "fig31.json").write_text(json.dumps(stored))
+    (folder / "fig32.json").unlink()
+    (folder / "abs_sin.json").write_text("{")
+    before = {path.name: path.read_bytes() for path in folder.iterdir()}
+    result = run("--check", "--out", folder, "fig31", "fig32", "abs_sin", "hadamard_modes")
+    assert result.returncode == 1
+    assert "fig31: dist_end is 0.000658" in result.stderr
+    assert "the floor" in result.stderr  # and says why it must not
+    assert "fig31: stop is 'reached_end', but must be 'blew_up'" in result.stderr
+    assert "fig32: no stored numbers" in result.stderr
+    assert "abs_sin: no stored numbers" in result.stderr
+    assert "hadamard_modes" not in result.stderr
+    assert "1 of 4 figures checked" in result.stdout
+    assert before == {path.name: path.read_bytes() for path in folder.iterdir()}
+
+
+def test_drift_sees_each_kind_of_claim():
+    stored = {
+        "near": sidecar.close(1.0, "x", rtol=1e-3),
+        "in": sidecar.within(2.0, 1, 3, "x"),
+        "text": sidecar.same("a", "x"),
+        "gone": sidecar.same(1, "x"),
+    }
+    fresh = {**stored, "near": sidecar.close(1.002, "x"), "in": sidecar.within(0.9, 1, 3, "x"), "new": stored["gone"]}
+    del fresh["gone"]
+    sentences = "\n".join(sidecar.drift(stored, fresh))
+    for name in ("near", "in", "gone", "new"):
+        assert f"{name} is" in sentences
+    assert "text" not in sentences
+    assert sidecar.drift(stored, stored) == []
+    assert sidecar.drift({"in": stored["in"]}, {"in": sidecar.within(float("nan"), 1, 3, "x")})
+
+
+def test_an_interrupted_or_failing_drawing_leaves_the_old_files(tmp_path, monkeypatch):
+    old = {"fig31.svg": "old picture", "fig31.json": "old numbers"}
+    for name, text in old.items():
+        (tmp_path / name).write_text(text)
+
+    def fails(figure, path):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(regenerate, "save", fails)
+    with pytest.raises(KeyboardInterrupt):
+        regenerate._make("fig31", tmp_path, ["svg"])
+    assert {path.name: path.read_text() for path in tmp_path.iterdir()} == old
+
+
+def test_list_names_every_figure():
+    result = run("--list")
+    assert result.returncode == 0
+    assert [line.split()[0] for line in result.stdout.splitlines()] == regenerate.NAMES
+
+
+@pytest.mark.parametrize(
+    ("arguments", "sentence"),
+    [
+        (["fig99"], "NAME must be one of"),
+        (["--jobs", "0"], "--jobs must be >= 1, got 0"),
+        (["--jobs", "two"], "argument --jobs: invalid int value: 'two'"),
+        (["--formats", "bmp"], "--formats must be some of svg,png,pdf, got 'bmp'"),
+        (["--formats", ""], "--formats must be some of svg,png,pdf, got ''"),
+        (["--out", __file__], "--out must be a folder that can be written"),
+        (["--out", "/proc/nowhere"], "--out must be a folder that can be written"),
+        (["--nonsense"], "unrecognized arguments: --nonsense"),
+    ],
+)
+def test_bad_calls_end_with_exit_2_and_one_sentence(arguments, sentence):
+    result = run(*arguments)
+    assert result.returncode == 2
+    assert sentence in result.stderr
+    assert "Traceback" not in result.stderr
+
+
+@pytest.mark.skipif(os.name != "posix" or os.geteuid() == 0, reason="root may write everywhere")
+def test_a_read_only_folder_is_named(tmp_path):
+    tmp_path.chmod(0o500)
+    result = run("--out", tmp_path, "fig31")
+    assert result.returncode == 2
+    assert "--out must be a folder that can be written" in result.stderr

@@ -1,0 +1,293 @@
+"""Guards the scheme: its bits, its orders, the paper's three runs, what a run records, and how it ends."""
+
+import math
+import signal
+import subprocess
+import sys
+import time
+import tracemalloc
+
+import numpy as np
+import pytest
+from scipy.linalg import expm
+from transcription import dist, march
+
+import primer.schemes.ftcs as scheme
+from primer import BackwardHeat, Run, Seed, Stop, Toy, ftcs
+from primer.schemes.discrete import dist_floor
+
+
+@pytest.fixture(params=["compiled", "interpreted"])
+def path(request, monkeypatch):
+    """Both time loops: the compiled one, and NumPy's as where numba cannot be imported."""
+    compiled = request.param == "compiled"
+    if compiled:
+        pytest.importorskip("numba")
+    monkeypatch.setattr(scheme, "_compiles", lambda problem, numbers, points: compiled)
+    return request.param
+
+
+@pytest.mark.parametrize("dtype", [np.float32, np.float64])
+@pytest.mark.parametrize(("a", "eps", "n", "dt"), [(0.5, 0.01, 100, 1e-3), (1.5, 0.0, 7, 0.02), (-2.0, 0.3, 4, 0.01)])
+def test_bits_are_those_of_the_plain_transcription(path, dtype, a, eps, n, dt):
+    steps, every = 301, 7
+    run = ftcs(Toy(a, eps), n, dt, steps * dt, every, snapshots=(100 * dt,), dtype=dtype)
+    states = list(march(a, eps, n, dt, steps, dtype))
+    np.testing.assert_array_equal(run.final, states[-1])
+    np.testing.assert_array_equal(run.snapshots[100 * dt], states[100])
+    x = run.x.astype(dtype)
+    at = [*range(0, steps, every), steps]
+    np.testing.assert_array_equal(run.u_min, [states[k][0].min() for k in at])
+    np.testing.assert_array_equal(run.dist, [dist(*states[k], dtype(a), x) for k in at])
+    np.testing.assert_array_equal(run.t, np.array(at) * dt)
+    assert run.final[0].dtype == dtype
+
+
+def test_bits_of_longdouble():
+    run = ftcs(Toy(0.5), 20, 1e-2, 0.5, dtype=np.longdouble)
+    *_, last = march(0.5, 0.01, 20, 1e-2, 50, np.longdouble)
+    np.testing.assert_array_equal(run.final, last)
+
+
+def test_thirty_digits_agree_with_longdouble_to_its_precision():
+    fine = ftcs(Toy(0.5), 16, 1e-2, 1.0, digits=30)
+    coarse = ftcs(Toy(0.5), 16, 1e-2, 1.0, dtype=np.longdouble)
+    assert fine.final[0].dtype == object
+    difference = np.abs(np.array(fine.final) - np.array(coarse.final)).astype(float).max()
+    assert 0 < difference < 100 * np.finfo(np.longdouble).eps
+
+
+def test_both_loops_give_the_same_blow_up(monkeypatch):
+    pytest.importorskip("numba")
+    runs = []
+    for compiled in (True, False):
+        monkeypatch.setattr(scheme, "_compiles", lambda problem, numbers, points, c=compiled: c)
+        runs.append(ftcs(Toy(0.5), n=200, dt=1e-3, t_end=10, snapshots=(1.0, 9.0), seed=(40, 1e-6, "v")))
+    first, second = runs
+    assert first.stop is second.stop is Stop.BLEW_UP
+    assert (first.t_stop, first.t_first_negative) == (second.t_stop, second.t_first_negative)
+    np.testing.assert_array_equal(first.dist, second.dist)
+    np.testing.assert_array_equal(first.final, second.final)
+    assert set(first.snapshots) == set(second.snapshots) == {1.0}  # the run did not live to t = 9
+
+
+def test_figure_4_comes_to_rest_on_the_floor():
+    run = ftcs(Toy(1.5))
+    assert run.stop is Stop.REACHED_END
+    assert run.t_stop == run.t[-1] == pytest.approx(100)
+    assert run.t.size == 1001
+    assert run.dist[-1] == pytest.approx(6.582768e-4, rel=5e-7)
+    assert run.dist[-1] == pytest.approx(dist_floor(100), rel=1e-9)
+    assert run.t_first_negative is None
+    assert run.u_min.min() > 0
+
+
+def test_figure_5_decays_then_blows_up():
+    run = ftcs(Toy(0.5), record_every=10, snapshots=(12.5, 50.0))
+    assert run.stop is Stop.BLEW_UP
+    assert 12 < run.t_stop < 16
+    assert run.t_first_negative == pytest.approx(0.8252, abs=0.01)
+    assert run.dist[run.t < 8].min() < 0.02 < run.dist[0]
+    assert run.dist[-1] > run.blow_up_at >= run.dist[-2]
+    assert np.isfinite(run.dist).all()
+    assert set(run.snapshots) == {12.5}
+
+
+def test_figure_6_hides_it():
+    run = ftcs(Toy(0.5), n=30)
+    assert run.stop is Stop.REACHED_END
+    assert run.dist[-1] == pytest.approx(7.348406e-3, rel=5e-7)
+    assert run.u_min[-1] == pytest.approx(0.5 - 1 - dist_floor(30), rel=1e-9)
+
+
+def test_second_order_in_space():
+    """Against the exact solution for eps = 0, with a step so small that its error is 1e-5 of the total."""
+    toy, t_end = Toy(0.5, eps=0), 2.0
+    errors = []
+    for n in (20, 40, 80):
+        run = ftcs(toy, n, 1e-5, t_end)
+        errors.append(np.abs(np.array(run.final) - toy.exact(run.x, t_end)).max())
+    np.testing.assert_allclose(np.log2(np.divide(errors[:-1], errors[1:])), 2, atol=0.1)
+
+
+def test_first_order_in_time():
+    """Against the exact solution of the semi-discrete equations: one mode, a 2 x 2 matrix exponential."""
+    toy, n, t_end = Toy(0.5, eps=0), 20, 2.0
+    h = 2 * math.pi / n
+    s = math.sin(h) / h
+    # u = a + U cos x, v = V sin x:  U' = s V,  V' = -s U - V - 1
+    generator = np.array([[0, s, 0], [-s, -1, -1], [0, 0, 0]])
+    U, V, _ = expm(generator * t_end) @ [0, -0.5, 1]
+    errors = []
+    for dt in (4e-3, 2e-3, 1e-3):
+        run = ftcs(toy, n, dt, t_end)
+        exact = toy.a + U * np.cos(run.x), V * np.sin(run.x)
+        errors.append(np.abs(np.array(run.final) - exact).max())
+    np.testing.assert_allclose(np.log2(np.divide(errors[:-1], errors[1:])), 1, atol=0.1)
+
+
+def test_backward_heat_follows_its_mode_until_the_grid_takes_over():
+    run = ftcs(BackwardHeat(), 32, 1e-3, 0.2)
+    assert run.dist[-1] == pytest.approx(math.exp(0.2), rel=1e-3)
+    late = ftcs(BackwardHeat(), 32, 1e-3, 5)
+    assert late.stop is Stop.BLEW_UP
+    assert late.t_stop < 1
+
+
+def test_seed_is_what_it_says():
+    x = ftcs(Toy(1.5), t_end=0.0).x
+    plain, seeded = (ftcs(Toy(1.5), t_end=0.0, seed=s).final for s in (None, Seed(3, 1e-4, "v", phase=0.0)))
+    np.testing.assert_array_equal(plain[0], seeded[0])
+    np.testing.assert_allclose(seeded[1] - plain[1], 1e-4 * np.cos(3 * x), atol=1e-16)
+    np.testing.assert_allclose(Seed(3, 2.0)(x), math.sqrt(2) * (np.cos(3 * x) + np.sin(3 * x)), atol=1e-14)
+    tuple_form = ftcs(Toy(1.5), t_end=0.0, seed=(3, 1e-4, "v", 0.0))
+    np.testing.assert_array_equal(tuple_form.final, seeded)
+    assert tuple_form.seed == Seed(3, 1e-4, "v", 0.0)
+
+
+def test_a_seed_makes_the_blow_up_sooner_and_reproducible():
+    times = [ftcs(Toy(0.5), seed=Seed(49, s)).t_stop for s in (1e-6, 1.001e-6, 1e-9)]
+    assert times[0] == pytest.approx(times[1], abs=2e-3)
+    # Three decades more to grow through, at the rate 2.727 of the grid's fastest mode (physics.md, section 1).
+    assert times[2] - times[0] == pytest.approx(math.log(1e3) / 2.727232, rel=0.1)
+
+
+@pytest.mark.parametrize(("a", "t"), [(0.0, 0.0), (-1.0, 0.0), (2.5, None)])
+def test_first_touch_counts_the_initial_data(path, a, t):
+    assert ftcs(Toy(a), 16, 1e-2, 1.0).t_first_negative == t
+
+
+def test_records_and_snapshots_lie_where_asked():
+    run = ftcs(Toy(1.5), 16, 0.03, 1.0, record_every=10, snapshots=[1.0, 0.0, 0.5, 0.5])
+    assert run.t_stop == 33 * 0.03  # whole steps: round(t_end/dt)
+    np.testing.assert_allclose(run.t, [0.0, 0.3, 0.6, 0.9, 0.99])
+    assert list(run.snapshots) == [0.0, 0.5, 1.0]
+    np.testing.assert_array_equal(run.snapshots[0.0], Toy(1.5).initial(run.x))
+    np.testing.assert_array_equal(run.snapshots[1.0], run.final)
+    *_, at_half = march(1.5, 0.01, 16, 0.03, 17)
+    np.testing.assert_array_equal(run.snapshots[0.5], at_half)
+    assert [f.shape for f in run.snapshots[0.5]] == [(16,), (16,)]
+
+
+def test_a_run_cannot_be_changed():
+    run = ftcs(Toy(1.5), 8, 0.01, 0.1, snapshots=(0.1,))
+    assert isinstance(run, Run)
+    with pytest.raises(AttributeError):
+        run.t_stop = 3
+    for array in (run.x, run.t, run.dist, run.u_min, *run.final, *run.snapshots[0.1]):
+        with pytest.raises(ValueError, match="read-only"):
+            array[0] = 1
+    with pytest.raises(TypeError):
+        run.snapshots[0.2] = ()
+
+
+def test_memory_is_that_of_the_records_not_of_the_steps(path):
+    steps = 200_000 if path == "compiled" else 4000
+    ftcs(Toy(1.5), 50, 1e-3, 1.0)  # whatever is loaded once
+    peaks = []
+    for factor in (1, 4):
+        tracemalloc.start()
+        ftcs(Toy(1.5), 50, 1e-3, factor * steps // 4 * 1e-3, record_every=steps)
+        peaks.append(tracemalloc.get_traced_memory()[1])
+        tracemalloc.stop()
+    assert max(peaks) < 100_000  # four times the steps: 2 x 50 x 8 bytes each would be megabytes
+    assert peaks[1] < peaks[0] + 20_000
+
+
+class Interrupting(Toy):
+    """A toy system during whose 40th step someone presses Ctrl-C."""
+
+    calls = 0
+
+    def rhs(self, *arguments):
+        Interrupting.calls += 1
+        if Interrupting.calls == 40:
+            raise KeyboardInterrupt
+        return super().rhs(*arguments)
+
+
+def test_ctrl_c_returns_what_was_recorded():
+    run = ftcs(Interrupting(1.5), 16, 0.01, 10, record_every=10)
+    assert run.stop is Stop.INTERRUPTED
+    np.testing.assert_allclose(run.t, [0, 0.1, 0.2, 0.3, 0.39])
+    assert run.t_stop == pytest.approx(0.39)
+    np.testing.assert_array_equal(run.final, list(march(1.5, 0.01, 16, 0.01, 39))[-1])
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="sends a POSIX signal")
+def test_ctrl_c_stops_the_compiled_loop():
+    code = (
+        "from primer import Toy, ftcs; ftcs(Toy(1.5), t_end=10); print('go', flush=True);"
+        "run = ftcs(Toy(1.5), t_end=1e6, record_every=100_000); print(run.stop.name, run.t.size, run.t_stop > 0)"
+    )
+    process = subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, text=True)
+    assert process.stdout.readline() == "go\n"
+    time.sleep(1)  # the run would take minutes
+    process.send_signal(signal.SIGINT)
+    try:
+        out, _ = process.communicate(timeout=60)
+    finally:
+        process.kill()
+    assert out.split()[0] == "INTERRUPTED"
+
+
+def test_without_numba_it_is_said_once(monkeypatch):
+    monkeypatch.setitem(sys.modules, "primer.schemes.kernel", None)  # importing it now raises ImportError
+    scheme._kernel.cache_clear()
+    try:
+        with pytest.warns(RuntimeWarning, match="numba is not here .*the same bits, but slower"):
+            run = ftcs(Toy(1.5), 100, 1e-3, 0.02)
+        ftcs(Toy(1.5), 100, 1e-3, 0.02)  # silent: a warning here would be an error
+    finally:
+        scheme._kernel.cache_clear()
+    *_, last = march(1.5, 0.01, 100, 1e-3, 20)
+    np.testing.assert_array_equal(run.final, last)
+
+
+@pytest.mark.parametrize("dtype", [np.float32, np.float64])
+def test_hopeless_parameters_still_end_in_an_outcome(path, dtype):
+    """Steps far beyond any stability limit: the first or second state is no number any more, without a warning."""
+    for problem in (Toy(0.5, 1e30), Toy(-1e12, 1.0), Toy(1.5, 10.0)):
+        run = ftcs(problem, 64, 10.0, 1000.0, dtype=dtype)
+        assert run.stop is Stop.BLEW_UP
+        assert run.t_stop <= 200
+
+
+@pytest.mark.parametrize(
+    ("options", "error", "sentence"),
+    [
+        ({"n": 3}, ValueError, "n must be an integer >= 4, got 3"),
+        ({"n": 10.0}, TypeError, "n must be an integer >= 4, got 10.0 (float)"),
+        ({"n": True}, TypeError, "n must be an integer >= 4, got True (bool)"),
+        ({"n": 10**9}, ValueError, "record_every, snapshots and n must let a run fit into 2 GiB"),
+        ({"dt": 0}, ValueError, "dt must be a finite number > 0, got 0"),
+        ({"dt": -1e-3}, ValueError, "dt must be a finite number > 0, got -0.001"),
+        ({"dt": math.nan}, ValueError, "dt must be a finite number > 0, got nan"),
+        ({"dt": "1"}, TypeError, "dt must be a finite number > 0, got '1' (str)"),
+        ({"dt": 1e-300}, ValueError, "dt must be more than t_end/2^53, got 1e-300"),
+        ({"t_end": -1}, ValueError, "t_end must be a finite number >= 0, got -1"),
+        ({"t_end": math.inf}, ValueError, "t_end must be a finite number >= 0, got inf"),
+        ({"t_end": None}, TypeError, "t_end must be a finite number >= 0, got None (NoneType)"),
+        ({"record_every": 0}, ValueError, "record_every must be an integer >= 1, got 0"),
+        ({"record_every": 0.1}, TypeError, "record_every must be an integer >= 1, got 0.1 (float)"),
+        ({"t_end": 1e9, "record_every": 1}, ValueError, "record_every, snapshots and n must let a run fit into 2 GiB"),
+        ({"t_end": 1.0, "snapshots": (1.5,)}, ValueError, "snapshots must be a finite number >= 0 and <= 1, got 1.5"),
+        ({"snapshots": (-0.1,)}, ValueError, "snapshots must be a finite number >= 0 and <= 100, got -0.1"),
+        ({"snapshots": 2.0}, TypeError, "snapshots must be a sequence of times, got 2.0"),
+        ({"snapshots": "12"}, TypeError, "snapshots must be a sequence of times, got '12'"),
+        ({"seed": 1e-6}, TypeError, "seed must be a Seed, or its (mode, amplitude, field) as a tuple, or None"),
+        ({"seed": (1, 1e-6, "w")}, ValueError, "seed field must be one of u, v, got 'w'"),
+        ({"seed": (51, 1e-6, "u")}, ValueError, "seed mode must be an integer <= 50, got 51"),
+        ({"seed": (1, math.nan, "u")}, ValueError, "seed amplitude must be a finite number, got nan"),
+        ({"blow_up_at": 0}, ValueError, "blow_up_at must be a finite number > 0 and <= 1.34078e+154, got 0"),
+        ({"dtype": "float16"}, ValueError, "dtype must be float32, float64 or longdouble"),
+        ({"dtype": "nonsense"}, ValueError, "dtype must be float32, float64 or longdouble"),
+        ({"digits": 1}, ValueError, "digits must be an integer >= 2 and <= 10000, got 1"),
+        ({"problem": 3}, TypeError, "problem must be a Toy, a BackwardHeat or an object with their methods, got 3"),
+    ],
+)
+def test_bad_input_gets_one_sentence(options, error, sentence):
+    with pytest.raises(error) as caught:
+        ftcs(options.pop("problem", Toy(1.5)), **options)
+    assert str(caught.value).startswith(sentence)
+    assert "\n" not in str(caught.value)

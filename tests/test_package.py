@@ -1,0 +1,88 @@
+"""Guards the house: lazy imports, floors that only import downwards, public names that exist, examples that run."""
+
+import ast
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import primer
+
+ROOT = Path(__file__).parents[1]
+MODULES = sorted((ROOT / "primer").rglob("*.py"))
+FLOORS = ["checks", "arithmetic", "problems", "schemes", "analysis", "granular", "study", "view", "__main__"]
+
+
+def imported(path):
+    """Dotted names of the modules that a file imports, anywhere in it."""
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.Import):
+            yield from (alias.name for alias in node.names)
+        elif isinstance(node, ast.ImportFrom):
+            yield node.module
+
+
+def floor(path):
+    return path.relative_to(ROOT / "primer").parts[0].removesuffix(".py")
+
+
+def test_import_primer_is_light():
+    code = "import sys, primer; print(*{name.split('.')[0] for name in sys.modules})"
+    loaded = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout.split()
+    assert not {"numba", "matplotlib", "sympy", "ipywidgets", "scipy", "mpmath"} & set(loaded)
+
+
+@pytest.mark.parametrize(
+    "path", [p for p in MODULES if p.name != "__init__.py"], ids=lambda p: str(p.relative_to(ROOT))
+)
+def test_imports_only_point_down(path):
+    here = FLOORS.index(floor(path))
+    for module in imported(path):
+        if module.startswith("primer."):
+            assert FLOORS.index(module.split(".")[1]) <= here, f"{path.name} imports {module}"
+        if floor(path) != "view":
+            assert module.split(".")[0] not in ("matplotlib", "ipywidgets"), f"{path.name} imports {module}"
+        assert module != "matplotlib.pyplot"
+
+
+@pytest.mark.parametrize("name", primer.__all__)
+def test_public_names_exist_and_say_what_they_are(name):
+    assert getattr(primer, name).__doc__
+    assert name in dir(primer)
+
+
+def test_unknown_names_are_refused():
+    with pytest.raises(AttributeError, match="no attribute 'nonsense'"):
+        _ = primer.nonsense
+
+
+def test_no_module_is_longer_than_250_lines():
+    lengths = {str(path): len(path.read_text(encoding="utf-8").splitlines()) for path in MODULES}
+    assert max(lengths.values()) <= 250, max(lengths, key=lengths.get)
+
+
+def readme():
+    return (ROOT / "README.md").read_text(encoding="utf-8")
+
+
+def test_readme_example_runs():
+    (example,) = re.findall(r"```python\n(.*?)```", readme(), flags=re.S)
+    names = {}
+    exec(compile(example, "README.md", "exec"), names)
+    assert names["fine"].stop == "blew_up"
+    assert names["coarse"].stop == "reached_end"
+
+
+def test_readme_layout_names_every_room():
+    (picture,) = re.findall(r"## How the code is laid out\n.*?```text\n(.*?)```", readme(), flags=re.S)
+    for path in [*(ROOT / "primer").iterdir(), *(ROOT / d for d in ("figures", "tests", "notebooks"))]:
+        if path.suffix in (".py", "") and not path.name.startswith("__pycache__"):
+            assert re.search(rf"\b{path.name}(/|\s)", picture), path.name
+
+
+def test_versions_agree():
+    assert re.fullmatch(r"\d+\.\d+\.\d+", primer.__version__)
+    assert f"## {primer.__version__}" in (ROOT / "CHANGELOG.md").read_text(encoding="utf-8")
+    assert f"version: {primer.__version__}" in (ROOT / "CITATION.cff").read_text(encoding="utf-8")
