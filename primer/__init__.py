@@ -17,6 +17,7 @@ _HOME = {
     "Seed": "schemes.run",
     "Stop": "schemes.run",
     "ftcs": "schemes.ftcs",
+    "ftcs_ensemble": "schemes.ensemble",
 }
 _ROOMS = ("problems", "schemes", "analysis", "granular", "study", "view")
 

@@ -12,6 +12,7 @@ import pytest
 from scipy.linalg import expm
 from transcription import dist, march
 
+import primer.schemes.block as blocks
 import primer.schemes.ftcs as scheme
 from primer import BackwardHeat, Run, Seed, Stop, Toy, ftcs
 from primer.schemes.discrete import dist_floor
@@ -23,7 +24,7 @@ def path(request, monkeypatch):
     compiled = request.param == "compiled"
     if compiled:
         pytest.importorskip("numba")
-    monkeypatch.setattr(scheme, "_compiles", lambda problem, numbers, points: compiled)
+    monkeypatch.setattr(scheme, "_compiles", lambda problem, asked: compiled)
     return request.param
 
 
@@ -57,11 +58,24 @@ def test_thirty_digits_agree_with_longdouble_to_its_precision():
     assert 0 < difference < 100 * np.finfo(np.longdouble).eps
 
 
+@pytest.mark.slow
+def test_more_digits_blow_up_later():
+    """The ill-posed run is seeded by round-off: each decimal digit buys ln(10)/2.727 of time (physics.md, section 1)."""
+    kinds = [{"dtype": np.float32}, {"dtype": np.float64}, {"dtype": np.longdouble}, {"digits": 30}]
+    runs = [ftcs(Toy(0.5), 100, 4e-3, 40, **kind) for kind in kinds]
+    times = [run.t_stop for run in runs]
+    assert all(run.stop is Stop.BLEW_UP for run in runs)
+    assert times == sorted(set(times))
+    assert 13 < times[1] < 15.5
+    digits = 30 - math.log10(1 / np.finfo(float).eps)
+    assert times[3] - times[1] == pytest.approx(digits * math.log(10) / 2.727232, rel=0.15)
+
+
 def test_both_loops_give_the_same_blow_up(monkeypatch):
     pytest.importorskip("numba")
     runs = []
     for compiled in (True, False):
-        monkeypatch.setattr(scheme, "_compiles", lambda problem, numbers, points, c=compiled: c)
+        monkeypatch.setattr(scheme, "_compiles", lambda problem, asked, c=compiled: c)
         runs.append(ftcs(Toy(0.5), n=200, dt=1e-3, t_end=10, snapshots=(1.0, 9.0), seed=(40, 1e-6, "v")))
     first, second = runs
     assert first.stop is second.stop is Stop.BLEW_UP
@@ -233,13 +247,13 @@ def test_ctrl_c_stops_the_compiled_loop():
 
 def test_without_numba_it_is_said_once(monkeypatch):
     monkeypatch.setitem(sys.modules, "primer.schemes.kernel", None)  # importing it now raises ImportError
-    scheme._kernel.cache_clear()
+    blocks.compiled_loops.cache_clear()
     try:
         with pytest.warns(RuntimeWarning, match="numba is not here .*the same bits, but slower"):
             run = ftcs(Toy(1.5), 100, 1e-3, 0.02)
         ftcs(Toy(1.5), 100, 1e-3, 0.02)  # silent: a warning here would be an error
     finally:
-        scheme._kernel.cache_clear()
+        blocks.compiled_loops.cache_clear()
     *_, last = march(1.5, 0.01, 100, 1e-3, 20)
     np.testing.assert_array_equal(run.final, last)
 
@@ -259,7 +273,7 @@ def test_hopeless_parameters_still_end_in_an_outcome(path, dtype):
         ({"n": 3}, ValueError, "n must be an integer >= 4, got 3"),
         ({"n": 10.0}, TypeError, "n must be an integer >= 4, got 10.0 (float)"),
         ({"n": True}, TypeError, "n must be an integer >= 4, got True (bool)"),
-        ({"n": 10**9}, ValueError, "record_every, snapshots and n must let a run fit into 2 GiB"),
+        ({"n": 10**9}, ValueError, "record_every, snapshots and n must let all runs fit into 2 GiB"),
         ({"dt": 0}, ValueError, "dt must be a finite number > 0, got 0"),
         ({"dt": -1e-3}, ValueError, "dt must be a finite number > 0, got -0.001"),
         ({"dt": math.nan}, ValueError, "dt must be a finite number > 0, got nan"),
@@ -270,7 +284,11 @@ def test_hopeless_parameters_still_end_in_an_outcome(path, dtype):
         ({"t_end": None}, TypeError, "t_end must be a finite number >= 0, got None (NoneType)"),
         ({"record_every": 0}, ValueError, "record_every must be an integer >= 1, got 0"),
         ({"record_every": 0.1}, TypeError, "record_every must be an integer >= 1, got 0.1 (float)"),
-        ({"t_end": 1e9, "record_every": 1}, ValueError, "record_every, snapshots and n must let a run fit into 2 GiB"),
+        (
+            {"t_end": 1e9, "record_every": 1},
+            ValueError,
+            "record_every, snapshots and n must let all runs fit into 2 GiB",
+        ),
         ({"t_end": 1.0, "snapshots": (1.5,)}, ValueError, "snapshots must be a finite number >= 0 and <= 1, got 1.5"),
         ({"snapshots": (-0.1,)}, ValueError, "snapshots must be a finite number >= 0 and <= 100, got -0.1"),
         ({"snapshots": 2.0}, TypeError, "snapshots must be a sequence of times, got 2.0"),

@@ -1,0 +1,67 @@
+"""Many toy systems marched side by side: the same runs, to the bit, in less time."""
+
+import os
+from concurrent.futures import ThreadPoolExecutor
+
+import numpy as np
+
+from primer.checks import shown
+from primer.problems.toy import Toy
+from primer.schemes.block import Block, compiled_loops
+from primer.schemes.ftcs import ftcs
+from primer.schemes.record import plan
+
+
+def ftcs_ensemble(
+    problems,
+    n=100,
+    dt=1e-3,
+    t_end=100.0,
+    record_every=None,
+    snapshots=(),
+    seed=None,
+    blow_up_at=1e3,
+    dtype=np.float64,
+    digits=None,
+):
+    """March many problems on the same grid with the same step: a tuple of what :func:`primer.ftcs` gives for each.
+
+    Toy systems in float32 or float64 are marched in blocks, the member the innermost index, so that one vector
+    instruction serves several of them; the blocks are spread over the machine's cores. Each member's bits are those of
+    its single run. Anything else is marched one by one.
+
+    Parameters
+    ----------
+    problems    a sequence of problems, such as ``[Toy(a) for a in np.linspace(0, 2, 64)]``
+    The others are those of :func:`primer.ftcs`, and serve every member.
+
+    Returns
+    -------
+    tuple of Run, in the order of ``problems``; after Ctrl-C, members that had not finished end as ``INTERRUPTED``
+
+    Raises
+    ------
+    TypeError, ValueError    in one sentence, for an argument that is not allowed
+    """
+    if isinstance(problems, str) or not np.iterable(problems):
+        raise TypeError(f"problems must be a sequence of problems, got {shown(problems)}")
+    problems = tuple(problems)
+    options = (n, dt, t_end, record_every, snapshots, seed, blow_up_at, dtype, digits)
+    asked = plan(*options)
+    asked.refuse_if_large(fields=2, members=len(problems))
+    blockwise = asked.numbers.dtype in (np.float32, np.float64) and all(type(p) is Toy for p in problems)
+    if not blockwise or compiled_loops() is None:
+        return tuple(ftcs(problem, *options) for problem in problems)
+    size = max(compiled_loops().MARCH)
+    blocks = [Block(asked, problems[k : k + size], size) for k in range(0, len(problems), size)]
+    interrupted = False
+    with ThreadPoolExecutor(os.cpu_count()) as pool:  # the compiled loop lets go of the interpreter
+        marches = [pool.submit(block.march) for block in blocks]
+        try:
+            for march in marches:
+                march.result()
+        except KeyboardInterrupt:
+            interrupted = True
+            for block in blocks:
+                block.halted = True
+    return tuple(run for block in blocks for run in block.runs(interrupted))
