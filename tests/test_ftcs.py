@@ -60,7 +60,7 @@ def test_thirty_digits_agree_with_longdouble_to_its_precision():
 
 @pytest.mark.slow
 def test_more_digits_blow_up_later():
-    """The ill-posed run is seeded by round-off: each decimal digit buys ln(10)/2.727 of time (physics.md, section 1)."""
+    """Seeded by round-off, the blow-up waits ln(10)/2.727 for each decimal digit (growth: physics.md, section 1)."""
     kinds = [{"dtype": np.float32}, {"dtype": np.float64}, {"dtype": np.longdouble}, {"digits": 30}]
     runs = [ftcs(Toy(0.5), 100, 4e-3, 40, **kind) for kind in kinds]
     times = [run.t_stop for run in runs]
