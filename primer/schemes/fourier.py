@@ -35,19 +35,18 @@ class Fourier:
 
         See e.g. L. N. Trefethen, "Spectral Methods in MATLAB", SIAM 2000, chapter 3 (even n) and its exercises (odd n).
         """
-        j = np.arange(1, n)
-        half, sign = j * math.pi / n, (-1.0) ** j
-        waist = 1 / np.tan(half) if n % 2 == 0 else 1 / np.sin(half)
+        j = np.arange(1, (n + 1) // 2)  # half way round; the other half follows by symmetry, to the bit
+        half, sign = math.pi / n * j, (-1.0) ** j
+        odd = n % 2
         if self.derivative == 1:
-            row = np.concatenate([[0], -sign * waist / 2])
-            if n % 2 == 0:
-                row[n // 2] = 0  # cot(pi/2), which rounding leaves at 6e-17
+            flank = sign / 2 / (np.sin(half) if odd else np.tan(half))
+            row = np.concatenate([[0], flank, [0] * (1 - odd), -flank[::-1]])
         else:
-            flank = 1 / np.sin(half) if n % 2 == 0 else 1 / np.tan(half)
-            centre = -(n * n + 2) / 12 if n % 2 == 0 else -(n * n - 1) / 12
-            row = np.concatenate([[centre], -sign / (2 * np.sin(half)) * flank])
+            flank = -sign / 2 / np.sin(half) / (np.tan(half) if odd else np.sin(half))
+            far = [] if odd else [-0.5 * (-1) ** (n // 2)]
+            row = np.concatenate([[-(n * n - 1) / 12 if odd else -(n * n + 2) / 12], flank, far, flank[::-1]])
         j = np.arange(n)
-        return row[(j[:, None] - j) % n]
+        return row[(j - j[:, None]) % n]
 
 
 #: Derivatives 1 and 2, in place of the table ``CENTRAL`` of differences.

@@ -11,7 +11,9 @@ from primer.problems.toy import Toy
 from primer.schemes.grid import CENTRAL, Grid, Stencil
 from primer.schemes.runge_kutta import RK4, RungeKutta
 
-_MATRIX_UP_TO = 128  # points up to which a product with a matrix costs less than the fast Fourier transforms it replaces
+_MATRIX_UP_TO = (
+    128  # points up to which a product with a matrix costs less than the fast Fourier transforms it replaces
+)
 _BLOWN_UP = 1e100  # growth over the initial data at which a march is given up
 
 

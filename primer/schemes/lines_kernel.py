@@ -54,7 +54,7 @@ def _compile(equation):
                                 v[i] += c * k[j, 1, i]
                     if dense:
                         for o in range(n):
-                            u_o, v_o = u[o], v[o]
+                            u_o, v_o = u[o] - u[0], v[o] - v[0]  # rounding leaves the rows of d1, d2 a sum of 1e-14
                             for i in range(n):
                                 u_x[i] += d1[o, i] * u_o
                                 v_x[i] += d1[o, i] * v_o
