@@ -21,8 +21,8 @@ def _compile(equation):
         """Take counts[m] steps dt[m] for m = 0, 1, ..., as long as |u|, |v| <= limit at the end of each step.
 
         y       (2, n) the state (u, v), overwritten
-        d1, d2  the derivatives on ghosted samples g, f' = sum_o d[o, i] g[o + i]: a (2 reach + 1, 1) stencil; or on bare
-                samples, f'_i = sum_o d[o, i] g[o]: an (n, n) matrix
+        d1, d2  the derivatives: (n, n) matrices, f'_i = sum_o d[o, i] f_o, or (2 reach + 1, 1) stencils on samples g
+                with ghosts, f'_i = sum_o d[o] g[o + i]
         A, b    the Runge-Kutta table
         states  (m, 2, n) filled with the states after each run of steps; those not reached are left alone
         depth   (m,) filled with the integral of max(0, -min u) to those times, by the rectangle rule

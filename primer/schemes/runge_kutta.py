@@ -53,12 +53,12 @@ def _combine(y, dt, weights, slopes):
     return y
 
 
-#: The classical step of fourth order (Kutta 1901). Of its region of stability, 2.6 is the largest half disc, rounded down.
+#: The classical step of fourth order (Kutta 1901). The largest half disc in its region of stability has radius 2.6.
 RK4 = RungeKutta("RK4", 4, ((0.5,), (0, 0.5), (0, 0, 1.0)), (1 / 6, 1 / 3, 1 / 3, 1 / 6), reach=2.6)
 
-#: The step of eighth order and twelve stages by Dormand and Prince; coefficients of the code DOP853 in E. Hairer,
-#: S. P. Norsett, G. Wanner, "Solving Ordinary Differential Equations I", 2nd ed., Springer 1993 (its step control is not
-#: used). The half disc is again rounded down.
+#: The step of eighth order and twelve stages by Dormand and Prince, as in the code DOP853 of E. Hairer,
+#: S. P. Norsett, G. Wanner, "Solving Ordinary Differential Equations I", 2nd ed., Springer 1993 (whose step control is
+#: not used here). The largest half disc in its region of stability has radius 5.9.
 RK8 = RungeKutta(
     "RK8",
     8,
@@ -114,5 +114,5 @@ RK8 = RungeKutta(
         *(3.1116436695781989440891606237e-1, -1.52160949662516078556178806805e-1),
         *(2.01365400804030348374776537501e-1, 4.47106157277725905176885569043e-2),
     ),
-    reach=5.7,
+    reach=5.9,
 )
