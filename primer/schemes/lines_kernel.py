@@ -35,6 +35,7 @@ def _compile(equation):
         u_ghosted, v_ghosted = np.empty(n + 2 * reach), np.empty(n + 2 * reach)
         u, v = u_ghosted[reach : reach + n], v_ghosted[reach : reach + n]
         u_x, v_x, v_xx = np.empty(n), np.empty(n), np.empty(n)
+        change = np.zeros((2, n))
         deep = 0.0
         for m in range(counts.size):
             for _step in range(counts[m]):
@@ -73,8 +74,15 @@ def _compile(equation):
                 for s in range(stages):
                     c = dt[m] * b[s]
                     for i in range(n):
-                        y[0, i] += c * k[s, 0, i]
-                        y[1, i] += c * k[s, 1, i]
+                        change[0, i] += c * k[s, 0, i]
+                        change[1, i] += c * k[s, 1, i]
+                # Kahan's sum: what rounding takes from y goes into the next change, so that it does not pile up in a
+                # hundred thousand steps.
+                for f in range(2):
+                    for i in range(n):
+                        was = y[f, i]
+                        y[f, i] = was + change[f, i]
+                        change[f, i] -= y[f, i] - was
                 largest = 0.0
                 for i in range(n):
                     largest = max(largest, abs(y[0, i]), abs(y[1, i]))
