@@ -20,9 +20,7 @@ _POINTS = (8, 16, 24, 32, 48, 64, 96, 128)
 # Measured at eps = 0: a step of 0.4 costs an error of at most 3.2e-11, which goes with the eighth power of the step.
 _STEP, _STEP_TOL = 0.4, 1e-10
 _SAFETY = 2  # by which the difference of two resolutions is multiplied
-_ROUND_OFF = 32 * np.finfo(float).eps  # times |a| + 2: about four times the largest error seen where only it was left
-    32 * np.finfo(float).eps
-)  # times the size of u: four times the largest rounding error seen at 8 to 96 points
+_ROUND_OFF = 32 * np.finfo(float).eps  # times |a| + 2: about four times the largest error that was all round-off
 _LOOK_AHEAD = 100.0  # time (the paper's longest) up to which an ill-posed case is searched for its horizon
 
 
