@@ -197,13 +197,11 @@ def _farthest(toy, tol, until):
 
 def _holds(toy, tol, until, rung):
     """Up to which time the answer of one resolution holds, to about one part in 64."""
-    span = min(_step(toy, tol, _POINTS[rung]), until)
+    span = _step(toy, tol, _POINTS[rung])
     while True:
         times = np.linspace(0, span, 65)
         _, error, _ = _attempt(toy, times, tol / 16, rung)  # the step apart, which is cheap, should not decide
         good = _good(error, tol)
-        if good < len(times):
-            return float(times[max(good, 1) - 1])
-        if span >= until:
-            return float(until)
-        span = min(2 * span, until)
+        if good < len(times) or span >= until:
+            return float(min(times[max(good, 1) - 1], until))
+        span *= 2
