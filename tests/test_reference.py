@@ -179,7 +179,7 @@ def test_bad_input_is_named(arguments, error, words):
         reference(*arguments)
 
 
-@pytest.mark.parametrize("n", [4, 5, 16, 33])
+@pytest.mark.parametrize("n", [4, 5, 16, 33, 130, 131])
 @pytest.mark.parametrize("m", [1, 2])
 def test_fourier_derivatives_three_ways(n, m):
     grid = -np.pi + 2 * np.pi / n * np.arange(n)

@@ -6,6 +6,8 @@ from functools import lru_cache
 
 import numpy as np
 
+MATRIX_UP_TO = 128  # points up to which a product with a matrix costs less than the fast Fourier transforms it replaces
+
 
 @dataclass(frozen=True)
 class Fourier:
@@ -21,6 +23,9 @@ class Fourier:
     def __call__(self, f, h):
         """Apply it to samples f of shape (..., n) of a periodic function on a grid of spacing h = 2 pi/n."""
         n = f.shape[-1]
+        f = f - f[..., :1]  # exact for a constant, and so less rounding for a large mean
+        if n <= MATRIX_UP_TO:
+            return f @ self.matrix(n)
         factors = (1j * np.arange(n // 2 + 1)) ** self.derivative
         if n % 2 == 0 and self.derivative == 1:
             factors[-1] = 0
@@ -30,8 +35,9 @@ class Fourier:
         """What it does to e^{i xi x}: (i xi)^m, for |xi| h < pi; complex, of the shape of xi."""
         return (1j * np.asarray(xi)) ** self.derivative
 
+    @lru_cache(maxsize=64)  # noqa: B019  (there are two of these objects, and they live for ever)
     def matrix(self, n):
-        """The same derivative as a matrix: ``f @ matrix(n)``, of shape (n, n), in closed form.
+        """The same derivative as a matrix: ``f @ matrix(n)``, of shape (n, n) and read-only, in closed form.
 
         See e.g. L. N. Trefethen, "Spectral Methods in MATLAB", SIAM 2000, chapter 3 (even n) and its exercises (odd n).
         """
@@ -46,7 +52,9 @@ class Fourier:
             far = [] if odd else [-0.5 * (-1) ** (n // 2)]
             row = np.concatenate([[-(n * n - 1) / 12 if odd else -(n * n + 2) / 12], flank, far, flank[::-1]])
         j = np.arange(n)
-        return row[(j - j[:, None]) % n]
+        matrix = row[(j - j[:, None]) % n]
+        matrix.flags.writeable = False
+        return matrix
 
 
 #: Derivatives 1 and 2, in place of the table ``CENTRAL`` of differences.
@@ -69,5 +77,7 @@ def interpolate(f, x):
 
 @lru_cache(maxsize=64)
 def transfer(n, points):
-    """The matrix of shape (n, points) that takes samples on n points to their interpolant on another grid."""
-    return interpolate(np.eye(n), -math.pi + 2 * math.pi / points * np.arange(points))
+    """The matrix of shape (n, points) that takes samples on n points to their interpolant on other points."""
+    matrix = interpolate(np.eye(n), -math.pi + 2 * math.pi / points * np.arange(points))
+    matrix.flags.writeable = False
+    return matrix

@@ -8,12 +8,10 @@ import numpy as np
 
 from primer.checks import real, shown
 from primer.problems.toy import Toy
+from primer.schemes.fourier import MATRIX_UP_TO
 from primer.schemes.grid import CENTRAL, Grid, Stencil
 from primer.schemes.runge_kutta import RK4, RungeKutta
 
-_MATRIX_UP_TO = (
-    128  # points up to which a product with a matrix costs less than the fast Fourier transforms it replaces
-)
 _BLOWN_UP = 1e100  # growth over the initial data at which a march is given up
 
 
@@ -128,7 +126,7 @@ def _tables(n, *derivatives):
     """What the compiled loop needs to know of the derivatives, or None where NumPy does better."""
     h = 2 * math.pi / n
     if not all(isinstance(d, Stencil) for d in derivatives):
-        return tuple(np.ascontiguousarray(d.matrix(n)) for d in derivatives) if n <= _MATRIX_UP_TO else None
+        return tuple(d.matrix(n) for d in derivatives) if n <= MATRIX_UP_TO else None
     reach = max(abs(o) for d in derivatives for o in d.offsets)
     if reach > n:
         return None
@@ -136,6 +134,7 @@ def _tables(n, *derivatives):
     for table, d in zip(tables, derivatives, strict=True):
         for offset, weight in zip(d.offsets, d.weights, strict=True):
             table[reach + offset, 0] = weight * d.scale(h)
+    tables.flags.writeable = False  # as the matrices: numba compiles another loop for writable arrays
     return tuple(tables)
 
 
