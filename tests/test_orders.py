@@ -143,7 +143,7 @@ def test_rk8_has_the_numbers_of_scipys_dop853():
     theirs = pytest.importorskip("scipy.integrate._ivp.dop853_coefficients")
     A, b = RK8.table
     assert (theirs.A[:12, :12] == A).all()
-    assert (theirs.B == b).all()
+    assert (b == theirs.B).all()
 
 
 @pytest.mark.parametrize("time", [RK4, RK8], ids=lambda time: time.name)
