@@ -79,6 +79,24 @@ def march_lines(problem, n, dt, t_end, space=CENTRAL, time=RK4):
     return Lines(problem, grid.n, step, t_end, space, time, x, tuple(final))
 
 
+def stable_step(toy, n, space, time):
+    """Nine tenths of the step up to which ``time`` is stable for the toy system on n points.
+
+    Frozen at a point, the eigenvalues lam of eq. (toy-mat) satisfy lam^2 + (1 + eps u d2) lam + d1^2 = 0 with the
+    derivatives' multipliers i d1 and -d2, and lie within max(d1, 1 + eps u d2). That is put into the half disc of
+    ``time.reach``. The largest u there is: u = a - cos x (1 - e^{-t/2} cos wt) <= a + 1.2 for eps = 0, and diffusion
+    lowers it.
+    """
+    d1, d2 = _largest(n, space[1], space[2])
+    return 0.9 * time.reach / max(d1, 1 + toy.eps * (abs(toy.a) + 1.25) * d2)
+
+
+@lru_cache(maxsize=64)
+def _largest(n, *derivatives):
+    xi = np.arange(n // 2 + 1)
+    return [float(np.abs(d.multiplier(xi, 2 * math.pi / n)).max()) for d in derivatives]
+
+
 def trace(problem, grid, space, time, t, counts):
     """The states at the ascending times t, of shape (len(t), fields, n), reached by counts[m] steps from t[m-1] (or 0).
 

@@ -9,7 +9,7 @@ from primer.checks import real, real_array, shown
 from primer.problems.toy import Toy
 from primer.schemes.fourier import FOURIER, interpolate, transfer
 from primer.schemes.grid import Grid
-from primer.schemes.lines import trace
+from primer.schemes.lines import stable_step, trace
 from primer.schemes.runge_kutta import RK8
 
 MAX_STEPS = 10**7  # a march of more steps than this (some minutes) is refused before it starts
@@ -173,12 +173,7 @@ def _attempt(toy, times, tol, rung):
 
 def _step(toy, tol, n):
     """The step for n points: within the region of stability, and accurate to tol."""
-    # Both roots of lam^2 + (1 + eps u k^2) lam + k^2 = 0, from (toy-mat), lie within max(k, 1 + eps u k^2), and so does
-    # that of the sawtooth, k = n/2, which the first derivative does not see. The largest u there is: u = a - cos x
-    # (1 - e^{-t/2} cos wt) <= a + 1.2 for eps = 0, and diffusion only lowers it.
-    k = n / 2
-    fastest = max(k, 1 + toy.eps * (abs(toy.a) + 1.25) * k * k)
-    return min(0.9 * RK8.reach / fastest, _STEP * (tol / _STEP_TOL) ** (1 / RK8.order))
+    return min(stable_step(toy, n, FOURIER, RK8), _STEP * (tol / _STEP_TOL) ** (1 / RK8.order))
 
 
 @lru_cache(maxsize=256)
