@@ -12,12 +12,23 @@ __version__ = "0.1.0"
 
 _HOME = {
     "BackwardHeat": "problems.heat",
-    "Toy": "problems.toy",
+    "CENTRAL": "schemes.grid",
+    "CENTRAL_4": "schemes.grid",
+    "CENTRAL_6": "schemes.grid",
+    "FOURIER": "schemes.fourier",
+    "Lines": "schemes.lines",
+    "PastHorizon": "schemes.reference",
+    "RK4": "schemes.runge_kutta",
+    "RK8": "schemes.runge_kutta",
+    "Reference": "schemes.reference",
     "Run": "schemes.run",
     "Seed": "schemes.run",
     "Stop": "schemes.run",
+    "Toy": "problems.toy",
     "ftcs": "schemes.ftcs",
     "ftcs_ensemble": "schemes.ensemble",
+    "march_lines": "schemes.lines",
+    "reference": "schemes.reference",
 }
 _ROOMS = ("problems", "schemes", "analysis", "granular", "study", "view")
 

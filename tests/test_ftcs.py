@@ -12,9 +12,9 @@ import pytest
 from scipy.linalg import expm
 from transcription import dist, march
 
-import primer.schemes.block as blocks
 import primer.schemes.ftcs as scheme
 from primer import BackwardHeat, Run, Seed, Stop, Toy, ftcs
+from primer.compiled import _say, compiled
 from primer.schemes.discrete import dist_floor
 
 
@@ -74,8 +74,8 @@ def test_more_digits_blow_up_later():
 def test_both_loops_give_the_same_blow_up(monkeypatch):
     pytest.importorskip("numba")
     runs = []
-    for compiled in (True, False):
-        monkeypatch.setattr(scheme, "_compiles", lambda problem, asked, c=compiled: c)
+    for fast in (True, False):
+        monkeypatch.setattr(scheme, "_compiles", lambda problem, asked, fast=fast: fast)
         runs.append(ftcs(Toy(0.5), n=200, dt=1e-3, t_end=10, snapshots=(1.0, 9.0), seed=(40, 1e-6, "v")))
     first, second = runs
     assert first.stop is second.stop is Stop.BLEW_UP
@@ -247,13 +247,14 @@ def test_ctrl_c_stops_the_compiled_loop():
 
 def test_without_numba_it_is_said_once(monkeypatch):
     monkeypatch.setitem(sys.modules, "primer.schemes.kernel", None)  # importing it now raises ImportError
-    blocks.compiled_loops.cache_clear()
+    compiled.cache_clear()
+    _say.cache_clear()
     try:
-        with pytest.warns(RuntimeWarning, match="numba is not here .*the same bits, but slower"):
+        with pytest.warns(RuntimeWarning, match="numba is not here .*the same, but slower"):
             run = ftcs(Toy(1.5), 100, 1e-3, 0.02)
         ftcs(Toy(1.5), 100, 1e-3, 0.02)  # silent: a warning here would be an error
     finally:
-        blocks.compiled_loops.cache_clear()
+        compiled.cache_clear()
     *_, last = march(1.5, 0.01, 100, 1e-3, 20)
     np.testing.assert_array_equal(run.final, last)
 

@@ -12,7 +12,18 @@ import primer
 
 ROOT = Path(__file__).parents[1]
 MODULES = sorted((ROOT / "primer").rglob("*.py"))
-FLOORS = ["checks", "arithmetic", "problems", "schemes", "analysis", "granular", "study", "view", "__main__"]
+FLOORS = [
+    "checks",
+    "arithmetic",
+    "compiled",
+    "problems",
+    "schemes",
+    "analysis",
+    "granular",
+    "study",
+    "view",
+    "__main__",
+]
 
 
 def imported(path):

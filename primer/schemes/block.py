@@ -1,13 +1,11 @@
 """Toy systems in the arrays of the compiled loop: one alone, or a block of members side by side."""
 
-import warnings
-from functools import cache
-from importlib import import_module
-
 import numpy as np
 
+from primer.compiled import compiled
 from primer.schemes.grid import CENTRAL
 
+KERNEL = "primer.schemes.kernel"
 CHUNK = 2**25  # grid points marched between two looks at the keyboard: about 0.02 s
 
 
@@ -60,7 +58,7 @@ class Block:
         while self.clock[2].min() == 0 and self.clock[0].max() < asked.steps and not self.halted:
             until = min(self.clock[0].max() + CHUNK // self.w.shape[2] + 1, asked.steps)
             records = asked.every, self.dist2, self.u_min, asked.shot_steps, self.shots
-            compiled_loops().MARCH[self.size](self.w, *self.fixed, self.clock, until, *records)
+            compiled(KERNEL).MARCH[self.size](self.w, *self.fixed, self.clock, until, *records)
 
     def runs(self, interrupted=False):
         """Yield the finished runs of the members."""
@@ -71,15 +69,3 @@ class Block:
             step, _, blown_up, _ = log.clock
             state = self.shots[-1, ..., m] if blown_up else fields[step % 2, ..., m]
             yield log.run(problem, state.copy(), interrupted and log.running)
-
-
-@cache
-def compiled_loops():
-    """The module ``kernel``, or None where numba cannot be imported, which is said once."""
-    try:
-        return import_module("primer.schemes.kernel")
-    except ImportError as missing:
-        warnings.warn(
-            f"numba is not here ({missing}): runs give the same bits, but slower", RuntimeWarning, stacklevel=4
-        )
-        return None

@@ -6,8 +6,9 @@ from concurrent.futures import ThreadPoolExecutor
 import numpy as np
 
 from primer.checks import shown
+from primer.compiled import compiled
 from primer.problems.toy import Toy
-from primer.schemes.block import Block, compiled_loops
+from primer.schemes.block import KERNEL, Block
 from primer.schemes.ftcs import ftcs
 from primer.schemes.record import plan
 
@@ -50,9 +51,9 @@ def ftcs_ensemble(
     asked = plan(*options)
     asked.refuse_if_large(fields=2, members=len(problems))
     blockwise = asked.numbers.dtype in (np.float32, np.float64) and all(type(p) is Toy for p in problems)
-    if not blockwise or compiled_loops() is None:
+    if not blockwise or compiled(KERNEL) is None:
         return tuple(ftcs(problem, *options) for problem in problems)
-    size = max(compiled_loops().MARCH)
+    size = max(compiled(KERNEL).MARCH)
     blocks = [Block(asked, problems[k : k + size], size) for k in range(0, len(problems), size)]
     interrupted = False
     with ThreadPoolExecutor(os.cpu_count()) as pool:  # the compiled loop lets go of the interpreter

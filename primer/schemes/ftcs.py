@@ -4,8 +4,9 @@ import sys
 
 import numpy as np
 
+from primer.compiled import compiled
 from primer.problems.toy import Toy
-from primer.schemes.block import Block, compiled_loops
+from primer.schemes.block import KERNEL, Block
 from primer.schemes.grid import CENTRAL
 from primer.schemes.record import plan
 
@@ -91,6 +92,6 @@ def _compiled(asked, problem):
 
 def _compiles(problem, asked):
     """Whether a run is for the compiled loop. The bits are the same either way."""
-    worthwhile = asked.steps * asked.grid.n > _SHORT or "primer.schemes.kernel" in sys.modules
+    worthwhile = asked.steps * asked.grid.n > _SHORT or KERNEL in sys.modules
     machine_numbers = asked.numbers.dtype in (np.float32, np.float64)
-    return type(problem) is Toy and machine_numbers and worthwhile and compiled_loops() is not None
+    return type(problem) is Toy and machine_numbers and worthwhile and compiled(KERNEL) is not None

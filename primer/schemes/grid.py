@@ -49,6 +49,16 @@ CENTRAL = {
     2: Stencil(2, 2, (1, 0, -1), (1, -2, 1), 1),
 }
 
+#: Central differences of fourth and sixth order, B. Fornberg, Math. Comp. 51 (1988) 699, table 1.
+CENTRAL_4 = {
+    1: Stencil(1, 4, (1, -1, 2, -2), (8, -8, -1, 1), 12),
+    2: Stencil(2, 4, (0, 1, -1, 2, -2), (-30, 16, 16, -1, -1), 12),
+}
+CENTRAL_6 = {
+    1: Stencil(1, 6, (1, -1, 2, -2, 3, -3), (45, -45, -9, 9, 1, -1), 60),
+    2: Stencil(2, 6, (0, 1, -1, 2, -2, 3, -3), (-490, 270, 270, -27, -27, 2, 2), 180),
+}
+
 
 @dataclass(frozen=True)
 class Grid:

@@ -1,0 +1,157 @@
+"""The method of lines: any stencil in space, any Runge-Kutta step in time, on the same right-hand side as ``ftcs``."""
+
+import math
+from dataclasses import dataclass, field
+from functools import lru_cache
+
+import numpy as np
+
+from primer.checks import real, shown
+from primer.compiled import compiled
+from primer.problems.toy import Toy
+from primer.schemes.fourier import MATRIX_UP_TO
+from primer.schemes.grid import CENTRAL, Grid, Stencil
+from primer.schemes.runge_kutta import RK4, RungeKutta
+
+_BLOWN_UP = 1e100  # growth over the initial data at which a march is given up
+
+
+@dataclass(frozen=True, eq=False)
+class Lines:
+    """The outcome of :func:`march_lines`; arrays are read-only, everything is dimensionless.
+
+    Attributes
+    ----------
+    problem, n, dt, t    what was marched, on how many points, with which step, to which time
+    space, time          the derivatives and the step
+    x                    (n,) the grid
+    final                the fields at t, each of shape (n,); NaN where the march blew up
+    """
+
+    problem: object
+    n: int
+    dt: float
+    t: float
+    space: dict = field(repr=False)
+    time: RungeKutta
+    x: np.ndarray = field(repr=False)
+    final: tuple[np.ndarray, ...] = field(repr=False)
+
+    @property
+    def blew_up(self):
+        """Whether the march was given up, at 1e100 times the size of its initial data."""
+        return not np.isfinite(self.final).all()
+
+
+def march_lines(problem, n, dt, t_end, space=CENTRAL, time=RK4):
+    """March ``problem`` to t_end on n periodic points, with the derivatives ``space`` and the step ``time``.
+
+    Parameters
+    ----------
+    problem      a ``Toy``, a ``BackwardHeat``, or any object with their methods
+    n : int      grid points, n >= 4
+    dt : float   the largest step; the march takes ceil(t_end/dt) equal ones and so ends at t_end itself
+    t_end        the end, t_end >= 0
+    space        derivative -> stencil: ``CENTRAL``, ``CENTRAL_4``, ``CENTRAL_6`` or ``FOURIER``
+    time         ``RK4`` or ``RK8``
+
+    Returns
+    -------
+    Lines; its fields are NaN if the march blew up, as it does where dt is beyond the limit of stability
+
+    Raises
+    ------
+    TypeError, ValueError    in one sentence, for an argument that is not allowed
+    """
+    grid, dt, t_end = Grid(n), real("dt", dt, above=0), real("t_end", t_end, least=0)
+    if not isinstance(time, RungeKutta):
+        raise TypeError(f"time must be a RungeKutta step such as RK4 or RK8, got {shown(time)}")
+    if not isinstance(space, dict) or not {1, 2} <= space.keys():
+        raise TypeError(f"space must be a table of derivatives such as CENTRAL or FOURIER, got {shown(space)}")
+    if not t_end / dt < 2**53:
+        raise ValueError(f"dt must be more than t_end/2^53, got {dt!r} with t_end {t_end!r}")
+    # A quotient that rounding leaves a little above a whole number is that number.
+    steps = math.ceil(t_end / dt * (1 - 1e-12))
+    x = grid.x
+    states, _ = trace(problem, grid, space, time, np.array([t_end]), np.array([steps]))
+    final = states[0]
+    final.flags.writeable = x.flags.writeable = False
+    step = t_end / steps if steps else dt
+    return Lines(problem, grid.n, step, t_end, space, time, x, tuple(final))
+
+
+def stable_step(toy, n, space, time):
+    """Nine tenths of the step up to which ``time`` is stable for the toy system on n points.
+
+    Frozen at a point, the eigenvalues lam of eq. (toy-mat) satisfy lam^2 + (1 + eps u d2) lam + d1^2 = 0 with the
+    derivatives' multipliers i d1 and -d2, and lie within max(d1, 1 + eps u d2). That is put into the half disc of
+    ``time.reach``. The largest u there is: u = a - cos x (1 - e^{-t/2} cos wt) <= a + 1.2 for eps = 0, and diffusion
+    lowers it.
+    """
+    d1, d2 = _largest(n, space[1], space[2])
+    return 0.9 * time.reach / max(d1, 1 + toy.eps * (abs(toy.a) + 1.25) * d2)
+
+
+@lru_cache(maxsize=64)
+def _largest(n, *derivatives):
+    xi = np.arange(n // 2 + 1)
+    return [float(np.abs(d.multiplier(xi, 2 * math.pi / n)).max()) for d in derivatives]
+
+
+def trace(problem, grid, space, time, t, counts):
+    """The states at the ascending times t, of shape (len(t), fields, n), reached by counts[m] steps from t[m-1] (or 0).
+
+    Returns
+    -------
+    (states, depth); states that a blow-up kept from being reached are NaN, and depth (len(t),) is the integral of
+    max(0, -min of the first field) over time up to t, infinite where not reached
+    """
+    x, n = grid.x, grid.n
+    y = np.array(problem.initial(x))
+    dt = np.diff(t, prepend=0.0) / np.maximum(counts, 1)
+    limit = _BLOWN_UP * (1 + float(np.abs(y).max()))
+    states, depth = np.full((len(t), *y.shape), np.nan), np.full(len(t), np.inf)
+    loops = compiled("primer.schemes.lines_kernel") if type(problem) is Toy else None
+    tables = _tables(n, *(space[m] for m in (1, 2)))
+    if loops is None or tables is None:
+        _interpreted(problem, grid, space, time, y, dt, counts, limit, states, depth)
+    else:
+        counts = np.asarray(counts, dtype=np.int64)
+        loops.march(y, problem.forcing(x), problem.eps, *tables, *time.table, dt, counts, limit, states, depth)
+    return states, depth
+
+
+def _interpreted(problem, grid, space, time, y, dt, counts, limit, states, depth):
+    """The same march in NumPy, for any problem."""
+    x, h = grid.x, grid.h
+    forcing, deep = problem.forcing(x), 0.0
+
+    def slope(y):
+        return np.array(problem.rhs(x, y, lambda f, m: space[m](f, h), forcing))
+
+    # One step may carry a blow-up from below the stated size to beyond the largest number.
+    with np.errstate(over="ignore", invalid="ignore"):
+        for m, count in enumerate(counts):
+            for _ in range(count):
+                deep -= dt[m] * min(0.0, y[0].min())
+                y = time.step(slope, y, dt[m])
+                if not np.abs(y).max() <= limit:
+                    return
+            states[m], depth[m] = y, deep
+
+
+@lru_cache(maxsize=64)
+def _tables(n, *derivatives):
+    """What the compiled loop needs to know of the derivatives, or None where NumPy does better."""
+    h = 2 * math.pi / n
+    if not all(isinstance(d, Stencil) for d in derivatives):
+        return tuple(d.matrix(n) for d in derivatives) if n <= MATRIX_UP_TO else None
+    reach = max(abs(o) for d in derivatives for o in d.offsets)
+    if reach > n:
+        return None
+    tables = np.zeros((len(derivatives), 2 * reach + 1, 1))
+    for table, d in zip(tables, derivatives, strict=True):
+        for offset, weight in zip(d.offsets, d.weights, strict=True):
+            table[reach + offset, 0] = weight * d.scale(h)
+    tables.flags.writeable = False  # as the matrices: numba compiles another loop for writable arrays
+    return tuple(tables)
