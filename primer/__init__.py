@@ -13,6 +13,10 @@ __version__ = "0.1.0"
 _HOME = {
     "BackwardHeat": "problems.heat",
     "Toy": "problems.toy",
+    "MaxGrowth": "analysis.directions",
+    "Pencil": "analysis.pencil",
+    "growth": "analysis.pencil",
+    "max_growth": "analysis.directions",
     "Run": "schemes.run",
     "Seed": "schemes.run",
     "Stop": "schemes.run",
