@@ -16,22 +16,42 @@ LAST = -12  # expansions are carried no further than k^LAST
 DEPTH = 60  # nor than so many terms
 
 
-@dataclass(frozen=True, order=False)
+@dataclass(frozen=True)
 class Law:
-    """Re lambda ~ coefficient k^exponent as k -> infinity; coefficient = 0 says that Re lambda vanishes."""
+    """Re lambda ~ coefficient k^exponent as k -> infinity; coefficient = 0 says that Re lambda vanishes.
+
+    Laws are ordered by the size of Re lambda for large k.
+    """
 
     exponent: Fraction
     coefficient: float
 
     @property
     def key(self):
-        """Sorts laws by the size of what they say, for large k."""
+        """What laws are ordered by; the first two members say which is faster whatever the coefficients' sizes."""
         sign = (self.coefficient > 0) - (self.coefficient < 0)
         return sign, sign * self.exponent, self.coefficient
 
+    def __lt__(self, other):
+        return self.key < other.key
+
     @property
     def is_bounded(self):
+        """Whether Re lambda is bounded from above."""
         return self.coefficient <= 0 or self.exponent <= 0
+
+    def __str__(self):
+        q = self.exponent
+        if not self.coefficient or not q:
+            return f"Re lambda -> {self.coefficient:.6g}"
+        power = "" if q == 1 else f"^{q}" if q.denominator == 1 and q > 0 else f"^({q})"
+        return f"Re lambda ~ {self.coefficient:.6g} |xi|{power}"
+
+    def is_near(self, other):
+        """Whether the two are equal but for rounding of the coefficient."""
+        return self.key[:2] == other.key[:2] and abs(self.coefficient - other.coefficient) <= 1e-12 * abs(
+            other.coefficient
+        )
 
 
 @dataclass(frozen=True)
@@ -69,7 +89,7 @@ def branches(P, zero=ZERO):
     with mp.workdps(DIGITS):
         P = {(i, Fraction(j)): mp.mpc(a) for (i, j), a in P.items()}
         found = list(_expand(P, None, (), is_conservative(P, zero), zero))
-    return sorted(found, key=lambda branch: branch.law.key, reverse=True)
+    return sorted(found, key=lambda branch: branch.law, reverse=True)
 
 
 def is_conservative(P, zero=ZERO):
@@ -81,7 +101,7 @@ def is_conservative(P, zero=ZERO):
 
 def _expand(P, above, terms, conservative, zero):
     """Branches lambda = (terms) + mu of a polynomial P in mu and k, mu = o(k^above)."""
-    hull = _hull(P)
+    hull = hull_of(P)
     if hull[0][0] > 0:  # mu = 0 is a root: the expansion ends here
         yield Branch(terms, hull[0][0], True, Law(Fraction(0), 0.0))
     for (i, j), (i2, j2) in pairwise(hull):
@@ -97,10 +117,10 @@ def _expand(P, above, terms, conservative, zero):
                 # A simple branch that agrees with its mirror image in the imaginary axis is its mirror image.
                 yield Branch(longer, multiplicity, False, Law(Fraction(0), 0.0))
             else:
-                yield from _expand(_shifted(P, 1j * c.imag, q, zero), q, longer, conservative, zero)
+                yield from _expand(shifted_by(P, 1j * c.imag, q, 0, zero), q, longer, conservative, zero)
 
 
-def _hull(P):
+def hull_of(P):
     """Vertices of the upper hull of the exponents (i, j) of P, from left to right."""
     top = {}
     for i, j in P:
@@ -117,12 +137,18 @@ def _turns_left(a, b, c):
     return (b[1] - a[1]) * (c[0] - b[0]) <= (c[1] - b[1]) * (b[0] - a[0])
 
 
-def _shifted(P, c, q, zero):
-    """P with lambda = c k^q + mu, as a polynomial in mu and k; cancelled terms are left out."""
+def shifted_by(P, c, q, place, zero):
+    """P with the variable in this place of its exponents, z, replaced by c k^q + z; cancelled terms are left out.
+
+    k is the variable in place 1.
+    """
     value, size = defaultdict(mp.mpc), defaultdict(mp.mpf)
-    for (i, j), a in P.items():
-        for n in range(i + 1):
-            term = a * mp.binomial(i, n) * c ** (i - n)
-            value[n, j + q * (i - n)] += term
-            size[n, j + q * (i - n)] += abs(term)
-    return {power: a for power, a in value.items() if abs(a) > zero * size[power]}
+    for powers, a in P.items():
+        for n in range(powers[place] + 1):
+            m = powers[place] - n
+            term = a * mp.binomial(powers[place], n) * c**m
+            new = list(powers)
+            new[place], new[1] = n, powers[1] + q * m
+            value[tuple(new)] += term
+            size[tuple(new)] += abs(term)
+    return {powers: a for powers, a in value.items() if abs(a) > zero * size[powers]}

@@ -44,26 +44,32 @@ def common(p, q, zero):
 
 
 def roots(p, zero=ZERO):
-    """The distinct roots of p and their multiplicities: a list of pairs, by Yun's squarefree decomposition."""
-    p = trimmed(p, zero * max(abs(a) for a in p))
-    zeros = next((n for n, a in enumerate(p) if a != 0), 0)
+    """The distinct roots of p and their multiplicities: a list of pairs, by Yun's squarefree decomposition.
+
+    The last coefficient of p must not be zero.
+    """
+    zeros = next(n for n, a in enumerate(p) if a != 0)
     found = [(mp.mpc(0), zeros)] if zeros else []
     p = p[zeros:]
-    if len(p) == 2:
-        return [*found, (-p[0] / p[1], 1)]
-    multiplicity = 1
-    if len(p) > 2:
-        shared = common(p, derivative(p), zero)
-        simple, _ = divided(p, shared)
-        while len(simple) > 1:
-            if len(shared) == 1:
-                found += [(z, multiplicity) for z in _simple_roots(simple)]
-                break
-            again = common(simple, shared, zero)
-            once, _ = divided(simple, again)
-            found += [(z, multiplicity) for z in _simple_roots(once)]
-            shared, _ = divided(shared, again)
-            simple, multiplicity = again, multiplicity + 1
+    if len(p) < 3:
+        return [*found, *((-p[0] / a, 1) for a in p[1:])]
+    size = mp.root(abs(p[0] / p[-1]), len(p) - 1)  # the roots' geometric mean, scaled to one
+    p = [a * size**n for n, a in enumerate(p)]
+    return found + [(size * z, multiplicity) for z, multiplicity in _scaled_roots(p, zero)]
+
+
+def _scaled_roots(p, zero):
+    found, multiplicity = [], 1
+    shared = common(p, derivative(p), zero)
+    simple, _ = divided(p, shared)
+    while len(simple) > 1:
+        if len(shared) == 1:
+            return found + [(z, multiplicity) for z in _simple_roots(simple)]
+        again = common(simple, shared, zero)
+        once, _ = divided(simple, again)
+        found += [(z, multiplicity) for z in _simple_roots(once)]
+        shared, _ = divided(shared, again)
+        simple, multiplicity = again, multiplicity + 1
     return found
 
 
@@ -71,4 +77,49 @@ def _simple_roots(p):
     if len(p) == 3:
         half, root = -p[1] / (2 * p[2]), mp.sqrt(p[1] ** 2 - 4 * p[0] * p[2]) / (2 * p[2])
         return [half + root, half - root]
-    return mp.polyroots(p[::-1], maxsteps=1000, extraprec=8 * mp.mp.prec) if len(p) > 1 else []
+    return mp.polyroots(p[::-1], maxsteps=1000, extraprec=mp.mp.prec) if len(p) > 1 else []
+
+
+def resultant(p, q, zero=ZERO):
+    """The resultant of two polynomials whose coefficients are polynomials in a parameter: a polynomial in it, [] if zero.
+
+    By interpolation of Sylvester determinants at whole numbers.
+    """
+    degrees = [max(len(c) for c in f) - 1 for f in (p, q)]
+    nodes = range(1, (len(q) - 1) * degrees[0] + (len(p) - 1) * degrees[1] + 2)
+    values, sizes = [], []
+    for s in nodes:
+        rows = [[mp.polyval(c[::-1], s) for c in f] for f in (p, q)]
+        values.append(_sylvester(*rows))
+        sizes.append(max(map(abs, rows[0])) ** (len(q) - 1) * max(map(abs, rows[1])) ** (len(p) - 1))
+    if all(abs(v) <= zero * s for v, s in zip(values, sizes, strict=True)):
+        return []
+    return trimmed(_interpolated(nodes, values), zero * max(map(abs, values)))
+
+
+def _sylvester(p, q):
+    """The determinant of the Sylvester matrix, by elimination."""
+    m, n = len(p) - 1, len(q) - 1
+    rows = [[mp.mpc(0)] * r + list(p) + [mp.mpc(0)] * (n - 1 - r) for r in range(n)]
+    rows += [[mp.mpc(0)] * r + list(q) + [mp.mpc(0)] * (m - 1 - r) for r in range(m)]
+    product = mp.mpc(1)
+    while rows:
+        best = max(range(len(rows)), key=lambda r: abs(rows[r][0]))
+        pivot = rows.pop(best)
+        product *= pivot[0] * (-1) ** best
+        if pivot[0] == 0:
+            break
+        rows = [[a - row[0] / pivot[0] * b for a, b in zip(row[1:], pivot[1:], strict=True)] for row in rows]
+    return product
+
+
+def _interpolated(nodes, values):
+    """Coefficients of the polynomial through the values, by Newton's divided differences."""
+    nodes, table = list(nodes), list(values)
+    for level in range(1, len(nodes)):
+        for n in range(len(nodes) - 1, level - 1, -1):
+            table[n] = (table[n] - table[n - 1]) / (nodes[n] - nodes[n - level])
+    p = [table[-1]]
+    for n in range(len(nodes) - 2, -1, -1):  # Horner: p (s - node) + table
+        p = [table[n] - nodes[n] * p[0], *(a - nodes[n] * b for a, b in zip(p, [*p[1:], mp.mpc(0)], strict=True))]
+    return p

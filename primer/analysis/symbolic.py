@@ -116,8 +116,7 @@ def linearise(text, *, at=None, order="full", **parameters):
 def _read(text, at, order, parameters):
     if order not in ("full", "maximal"):
         raise ValueError(f"order must be 'full' or 'maximal', got {shown(order)}")
-    names = [*parameters, *(at if isinstance(at, dict) else ())]
-    system = read(text, names)
+    system = read(text, parameters)
     return system, checked(system, at, parameters)
 
 
