@@ -128,11 +128,11 @@ def test_one_sided_growth_in_one_dimension():
 
 def test_drifting_direction_of_the_critical_state():
     """Growth ~ |xi|^{2/3} in a window of that width's inverse, which a scan of a thousand fixed directions misses."""
-    pencil, k = critical_state(0.5), np.array([1e7, 1e9])
+    pencil, k = critical_state(0.5), np.array([1e6, 1e8])
     best = max_growth(pencil, k).growth
-    assert np.log(best[1] / best[0]) / np.log(100) == pytest.approx(2 / 3, abs=1e-4)
+    assert np.log(best[1] / best[0]) / np.log(100) == pytest.approx(2 / 3, abs=5e-4)
     fixed = np.linspace(0.01, np.pi, 1000)
-    scan = growth(pencil, 1e9 * np.stack([np.cos(fixed), np.sin(fixed)])).max()
+    scan = growth(pencil, 1e8 * np.stack([np.cos(fixed), np.sin(fixed)])).max()
     assert scan < 0.01 * best[1]
 
 

@@ -9,7 +9,7 @@ from primer.checks import real_array
 
 SCAN = 180  # directions of the first scan: a degree apart on the half circle
 PEAKS = 8  # local maxima followed up
-SPECIAL = 4  # directions where branches nearly meet, or nearly vanish, followed up
+SPECIAL = 16  # directions where branches nearly meet, or nearly vanish, followed up
 LOWEST = -1e300  # stands for a direction without eigenvalues
 FAN = 10.0 ** -np.arange(1, 15, 0.25)  # distances (radians) at which the neighbourhood of such a direction is searched
 
@@ -98,6 +98,7 @@ def _highest(angle, f, period, number):
     # A rise at rounding level is no peak, except that the highest place of all always counts.
     least = f - 1e-9 * np.abs(f)
     peak = ((least > np.roll(f, 1, axis=1)) & (least > np.roll(f, -1, axis=1))) | (f == f.max(axis=1, keepdims=True))
+    number = min(number, peak.sum(axis=1).max())
     order = np.argsort(np.where(peak, -f, np.inf), axis=1, kind="stable")[:, :number]
     order = np.where(np.take_along_axis(peak, order, axis=1), order, order[:, :1])
     forward = (np.roll(angle, -1, axis=1) - angle) % period
@@ -107,18 +108,18 @@ def _highest(angle, f, period, number):
 
 def _followed(pencil, k, angle, width, objective):
     """Each angle moved uphill by ever finer scans of its neighbourhood, down to rounding level."""
-    offsets = np.linspace(-1, 1, 9)
+    offsets = np.linspace(-1, 1, 5)
     width = np.broadcast_to(width, angle.shape)
     still = 0
-    for _ in range(24):  # a degree / 4^24 < 1e-16
+    for _ in range(36):  # a degree / 2.5^36 < 1e-16
         trial = angle[..., None] + width[..., None] * offsets
         f = objective(pencil, k, trial.reshape(len(k), -1)).reshape(trial.shape)
         best = np.argmax(f, axis=-1)
-        gain = np.take_along_axis(f, best[..., None], axis=-1)[..., 0] - f[..., 4]
-        moved = gain > 1e-15 * np.abs(f[..., 4])
+        gain = np.take_along_axis(f, best[..., None], axis=-1)[..., 0] - f[..., 2]
+        moved = gain > 1e-15 * np.abs(f[..., 2])
         angle = np.where(moved, np.take_along_axis(trial, best[..., None], axis=-1)[..., 0], angle)
         still = 0 if moved.any() else still + 1
         if still == 5:
             break
-        width = width / 3
+        width = width / 2.5
     return angle

@@ -17,6 +17,7 @@ from primer.analysis.puiseux import Law, branches, hull_of, shifted_by
 from primer.analysis.roots import DIGITS, resultant, roots
 
 DEPTH = 2  # drifts within drifts
+LAST = -3  # terms of branches below k^LAST are left out
 SAMPLES = 25  # values of tau to begin with
 
 
@@ -72,8 +73,13 @@ class _Search:
         for (i, j, l), c in F.items():
             size[i, j - r * l] = size.get((i, j - r * l), 0) + abs(c * tau**l)
         P = {power: c for power, c in P.items() if abs(c) > self.zero * size[power]}
-        found = branches(P, self.zero)
+        found = branches(P, self.zero, self.last())
         return found[0].law if found else Law(Fraction(0), -float("inf"))
+
+    def last(self):
+        """The order below which the real part of a branch can no longer matter."""
+        best = max((law for law, _, _ in self.found), default=None)
+        return max(LAST, best.exponent) if best and best.coefficient > 0 else LAST
 
     def add(self, law, slope, r):
         """Keep a law, its k the distance along the direction of this slope turned into |xi|."""
@@ -92,9 +98,10 @@ class _Search:
             stretch = float(mp.sqrt(1 + tau**2)) if slope is None else 1.0
             return Law(found.exponent, found.coefficient * stretch ** -float(found.exponent))
 
-        most = 1.5707 if slope is None else 10
-        so_far = self.best() if self.found else None
-        s = _highest(law, np.linspace(-most, most * 0.987, SAMPLES), so_far)
+        if slope is None:
+            s = _highest(law, np.linspace(-1.5707, 1.55, SAMPLES), None)
+        else:
+            s = _highest(law, np.array([-10, -7, -5.3, -3, 3.1, 4.9, 7, 10]), self.best())
         self.add(self.law(F, r, value(s)), value(s) if slope is None else slope, r)
         for tau in self.special(F, r, self.best()):
             if depth and (slope is None or tau != 0):
@@ -118,7 +125,7 @@ class _Search:
     def _imaginary(self, P):
         """The purely imaginary terms with which the branches at t = 0 begin, but for the last term known."""
         found = set()
-        for branch in branches(P, self.zero):
+        for branch in branches(P, self.zero, LAST):
             terms = tuple((q, 1j * c.imag) for q, c in branch.terms if abs(c.real) <= self.zero * abs(c))
             found.add(terms[:2])
         return found
@@ -184,13 +191,12 @@ def _facets(F):
     return found
 
 
-def _highest(law, s, so_far):
-    """Where law(s) is fastest: the best of the values s and, if that is no slower than ``so_far``, finer scans about it."""
+def _highest(law, s, rival):
+    """Where law(s) is fastest: the best of the values s, sought more finely if there is a chance against ``rival``."""
     laws = [law(x) for x in s]
     best = max(range(len(s)), key=lambda n: laws[n])
-    centre, top, width = s[best], laws[best], s[1] - s[0]
-    flat = len({(x.exponent, round(x.coefficient, 12)) for x in laws}) == 1
-    if flat or (so_far and top.key[:2] < so_far.key[:2]):
+    centre, top, width = s[best], laws[best], np.diff(s).max()
+    if all(other.is_near(top) for other in laws) or (rival and top.key[:2] < rival.key[:2]):
         return centre
     start = abs(top.coefficient)
     while width > 1e-8 and abs(top.coefficient) < 1e4 * start + 1:  # no further towards a pole: a special direction

@@ -11,6 +11,7 @@ import numpy as np
 
 EPS = np.finfo(float).eps
 TINY = np.finfo(float).tiny
+LOST = 1e50  # an iterate this large is on its way to infinity
 STEPS = 60  # Ehrlich-Aberth converges cubically; graded starting values need a few dozen steps at the very most
 
 
@@ -27,7 +28,7 @@ def finite_eigenvalues(S, E, n):
     complex array of shape (N, n), in no order; nan where a pencil is singular or has fewer than n finite eigenvalues
     """
     lam = np.full((len(S), n), np.nan, dtype=complex)
-    regular = ~_singular(S, E)
+    regular = ~_singular(S, E) if n < S.shape[-1] else np.full(len(S), True)
     if n and regular.any():
         lam[regular] = _polished(S[regular], E[regular], _start(S[regular], E[regular], n))
     return lam
@@ -66,13 +67,14 @@ def _polished(S, E, lam):
         others = np.divide(1, gap, out=np.zeros_like(gap), where=gap != 0).sum(axis=2)
         slope = newton - others
         step = np.divide(1, slope, out=np.zeros_like(slope), where=(slope != 0) & np.isfinite(slope) & active[rows])
-        lam[rows] = now - step
+        lost = np.abs(now - step) > LOST
+        lam[rows] = np.where(lost, LOST * np.exp(1j * np.arange(now.shape[1])), now - step)
         size = np.abs(step)
         # Stop at rounding level, or when a step no longer shrinks: a zero or a multiple eigenvalue has no better value.
         done = (size <= 2 * EPS * np.abs(now)) | ((size > last[rows] / 2) & (last[rows] <= 1e-3 * np.abs(now)))
-        active[rows] &= ~(done | (size == 0))
+        active[rows] &= ~(done | lost | (size == 0))
         last[rows] = size
-    lam[np.abs(lam) > 1e100] = np.nan
+    lam[np.abs(lam) > LOST / 2] = np.nan
     return lam
 
 
@@ -80,23 +82,27 @@ def _log_derivative(S, E, lam):
     """f'/f at lam of shape (N, n) for f = det(lambda E + S) = tr((lambda E + S)^-1 E); inf at a root."""
     A = lam[..., None, None] * E[:, None] + S[:, None]
     A, rows, columns = _scaled(A)
-    out = np.full(lam.shape, np.inf, dtype=complex)
-    regular = np.linalg.det(A) != 0
-    scaled_E = (rows[..., :, None] * columns[..., None, :] * E[:, None])[regular]
-    out[regular] = np.trace(np.linalg.solve(A[regular], scaled_E), axis1=-2, axis2=-1)
-    return out
+    scaled_E = rows[..., :, None] * columns[..., None, :] * E[:, None]
+    try:
+        return np.trace(np.linalg.solve(A, scaled_E), axis1=-2, axis2=-1)
+    except np.linalg.LinAlgError:  # some lambda is a root to the last bit
+        out = np.full(lam.shape, np.inf, dtype=complex)
+        regular = np.linalg.det(A) != 0
+        out[regular] = np.trace(np.linalg.solve(A[regular], scaled_E[regular]), axis1=-2, axis2=-1)
+        return out
 
 
 def _scaled(A):
     """Rows and columns of A divided by powers of two until the largest entry of each is near one (equilibration)."""
     rows, columns = np.ones(A.shape[:-1]), np.ones(A.shape[:-1])
     size = np.abs(A)
-    for _ in range(4):
+    for _ in range(3):
         for axis, factors in ((-1, rows), (-2, columns)):
             largest = size.max(axis=axis)
             factor = np.exp2(-np.round(np.log2(np.where(largest > 0, largest, 1)) / (2 if axis == -1 else 1)))
             factors *= factor
             size = size * np.expand_dims(factor, axis)
+    rows, columns = (np.clip(factors, 2.0**-300, 2.0**300) for factors in (rows, columns))
     return rows[..., :, None] * columns[..., None, :] * A, rows, columns
 
 

@@ -27,8 +27,9 @@ class System:
     text : str
     unknowns : tuple of str     in the order in which they occur, those with a time derivative first
     parameters : tuple of str   the names that are neither unknowns nor x, y, t
-    dim : int                   the number of space variables: 2 if y occurs or anything is differentiated by it, else 1
-    slopes : tuple of dicts     for each equation {(unknown, (n, a, b)): dF/d(its n-th t-, a-th x- and b-th y-derivative)}
+    dim : int                   the number of space variables: 2 if y occurs, or a derivative by y; else 1
+    slopes : tuple of dicts     for each equation {(unknown, (n, a, b)): slope}, the slope of F by the unknown's n-th
+                                t-, a-th x- and b-th y-derivative
     """
 
     text: str
@@ -115,7 +116,8 @@ class _Builder:
 
     def number(self, node):
         digits, imaginary = node.value
-        if len(digits) > 60 or abs(int((digits.lower().split("e") + ["0"])[1])) > 300:
+        _, _, exponent = digits.lower().partition("e")
+        if len(digits) > 60 or abs(int(exponent or 0)) > 300:
             self.fail("a number with more digits, or a larger exponent, than is allowed", node)
         value = sp.Rational(digits)
         return value * sp.I if imaginary else value

@@ -7,12 +7,13 @@ from collections import defaultdict
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import pairwise
+from math import comb
 
 import mpmath as mp
 
 from primer.analysis.roots import DIGITS, ZERO, roots
 
-LAST = -12  # expansions are carried no further than k^LAST
+LAST = -12
 DEPTH = 60  # nor than so many terms
 
 
@@ -72,23 +73,34 @@ class Branch:
     is_exact: bool
     law: Law
 
+    @property
+    def exponent(self):
+        """q of the leading term c k^q; 0 where lambda = 0."""
+        return self.terms[0][0] if self.terms else Fraction(0)
 
-def branches(P, zero=ZERO):
+    @property
+    def coefficient(self):
+        """c of the leading term c k^q, as a complex number."""
+        return complex(self.terms[0][1]) if self.terms else 0j
+
+
+def branches(P, zero=ZERO, last=LAST):
     """All branches of P(lambda, k) = 0 for k -> infinity, each carried on until its real part is seen.
 
     Parameters
     ----------
-    P : dict {(i, j): a}    not all coefficients of lambda^i, i > 0, zero
-    zero : float            the relative size below which a sum of cancelling terms counts as zero
+    P : dict {(i, j): a}
+    zero : float    the relative size below which a sum of cancelling terms counts as zero
+    last : int      expansions are carried no further than k^last
 
     Returns
     -------
     list of Branch, the fastest growing first. A coefficient of zero in a law means that Re lambda = 0 as far as the
-    expansion was carried, k^LAST; where ``is_conservative`` or the branch ``is_exact`` it means that for good.
+    expansion was carried, k^last; where ``is_conservative`` or the branch ``is_exact`` it means that for good.
     """
     with mp.workdps(DIGITS):
         P = {(i, Fraction(j)): mp.mpc(a) for (i, j), a in P.items()}
-        found = list(_expand(P, None, (), is_conservative(P, zero), zero))
+        found = list(_expand(P, None, (), is_conservative(P, zero), zero, last)) if P else []
     return sorted(found, key=lambda branch: branch.law, reverse=True)
 
 
@@ -99,7 +111,7 @@ def is_conservative(P, zero=ZERO):
     return all(abs(mp.conj(a) * (-1) ** i - ratio * a) <= zero * abs(a) for (i, _), a in P.items())
 
 
-def _expand(P, above, terms, conservative, zero):
+def _expand(P, above, terms, conservative, zero, last):
     """Branches lambda = (terms) + mu of a polynomial P in mu and k, mu = o(k^above)."""
     hull = hull_of(P)
     if hull[0][0] > 0:  # mu = 0 is a root: the expansion ends here
@@ -113,11 +125,11 @@ def _expand(P, above, terms, conservative, zero):
             longer = (*terms, (q, c))
             if abs(c.real) > zero * abs(c):
                 yield Branch(longer, multiplicity, False, Law(q, float(c.real)))
-            elif (conservative and multiplicity == 1) or q < LAST or len(longer) > DEPTH:
+            elif (conservative and multiplicity == 1) or q < last or len(longer) > DEPTH:
                 # A simple branch that agrees with its mirror image in the imaginary axis is its mirror image.
                 yield Branch(longer, multiplicity, False, Law(Fraction(0), 0.0))
             else:
-                yield from _expand(shifted_by(P, 1j * c.imag, q, 0, zero), q, longer, conservative, zero)
+                yield from _expand(shifted_by(P, 1j * c.imag, q, 0, zero), q, longer, conservative, zero, last)
 
 
 def hull_of(P):
@@ -146,7 +158,7 @@ def shifted_by(P, c, q, place, zero):
     for powers, a in P.items():
         for n in range(powers[place] + 1):
             m = powers[place] - n
-            term = a * mp.binomial(powers[place], n) * c**m
+            term = a * comb(powers[place], n) * c**m
             new = list(powers)
             new[place], new[1] = n, powers[1] + q * m
             value[tuple(new)] += term

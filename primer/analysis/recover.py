@@ -11,7 +11,7 @@ DIGITS = 14  # kept of a coefficient, so that equal ones come out equal
 
 
 def recovered(pencil):
-    """The :class:`Symbol` of a pencil, its coefficients by interpolation at whole numbers; None if that does not fit."""
+    """The :class:`Symbol` of a pencil: its coefficients, by interpolation at whole numbers; None if they do not fit."""
     for degree in DEGREES:
         node = np.arange(-(degree // 2), degree // 2 + 1.0)
         axes = np.meshgrid(*[node] * pencil.dim, indexing="ij")

@@ -2,10 +2,8 @@
 
 import mpmath as mp
 
-DIGITS = (
-    80  # carried throughout: a multiple root costs its multiplicity in digits, and few branches meet more than once
-)
-ZERO = mp.mpf(10) ** -40  # relative size below which a sum of cancelling terms is zero, where data are exact
+DIGITS = 160  # carried throughout: a root of multiplicity m is known to one m-th of them
+ZERO = mp.mpf(10) ** -50  # relative size below which a sum of cancelling terms is zero, where data are exact
 
 
 def trimmed(p, least):
@@ -81,10 +79,15 @@ def _simple_roots(p):
 
 
 def resultant(p, q, zero=ZERO):
-    """The resultant of two polynomials whose coefficients are polynomials in a parameter: a polynomial in it, [] if zero.
+    """The resultant of polynomials whose coefficients are polynomials in a parameter: a polynomial in that, [] if zero.
 
     By interpolation of Sylvester determinants at whole numbers.
     """
+    with mp.extradps(DIGITS):  # interpolation loses many
+        return _resultant(p, q, zero)
+
+
+def _resultant(p, q, zero):
     degrees = [max(len(c) for c in f) - 1 for f in (p, q)]
     nodes = range(1, (len(q) - 1) * degrees[0] + (len(p) - 1) * degrees[1] + 2)
     values, sizes = [], []
@@ -94,7 +97,9 @@ def resultant(p, q, zero=ZERO):
         sizes.append(max(map(abs, rows[0])) ** (len(q) - 1) * max(map(abs, rows[1])) ** (len(p) - 1))
     if all(abs(v) <= zero * s for v, s in zip(values, sizes, strict=True)):
         return []
-    return trimmed(_interpolated(nodes, values), zero * max(map(abs, values)))
+    found = _interpolated(nodes, values)
+    least = zero * max(map(abs, found))
+    return trimmed([a if abs(a) > least else mp.mpc(0) for a in found], 0)
 
 
 def _sylvester(p, q):

@@ -3,18 +3,19 @@
 import mpmath as mp
 import numpy as np
 
-from primer.analysis.roots import DIGITS, roots
+from primer.analysis.roots import roots
 
 NOISE = 1e-11  # relative real part below which an eigenvalue in double precision counts as purely imaginary
 PLACES = 6  # local maxima followed up
 TRIALS = 60  # places looked at in search of them
+PRECISE = 300  # digits for the roots of one polynomial: enough for roots 24 decades apart in size
 
 
 def supremum(symbol, law, real):
-    """(sup Re lambda over all xi, a |xi| where it is attained) where the fastest ``law`` as |xi| -> infinity is bounded.
+    """(sup Re lambda over all xi, the |xi| where), given that the fastest ``law`` as |xi| -> infinity is bounded.
 
-    It is attained at a local maximum of a scan over 24 decades of |xi| (12 in two space variables), followed to rounding
-    level, or at xi = 0; or else it is approached as |xi| -> infinity, and then the second number is infinity.
+    It is attained at a local maximum of a scan over 24 decades of |xi| (12 in two space variables), followed to
+    rounding level, or at xi = 0; or it is approached as |xi| -> infinity, and then the second number is infinity.
     """
     pencil = symbol.pencil()
     reach, angles = (12, 1 if real else 2) if symbol.dim == 1 else (6, 60 if real else 120)
@@ -89,7 +90,7 @@ def _sharpened(symbol, s, angle):
 
 def _exact(symbol, xi):
     """max Re lambda at one wavevector from the roots of det M, with many digits; -inf if det M vanishes."""
-    with mp.workdps(DIGITS):
+    with mp.workdps(PRECISE):
         xi = [mp.mpf(float(x)) for x in np.atleast_1d(xi)] + [mp.mpf(1)]
         p, size = {}, {}
         for (n, a, b), c in symbol.determinant.items():
@@ -99,4 +100,4 @@ def _exact(symbol, xi):
         if max(p, default=0) == 0:
             return -np.inf
         p = [p.get(n, mp.mpc(0)) for n in range(max(p) + 1)]
-        return float(max(z.real if abs(z.real) > symbol.zero * abs(z) else 0 for z, _ in roots(p)))
+        return float(max(z.real if abs(z.real) > symbol.zero * abs(z) else 0 for z, _ in roots(p, mp.mpf(10) ** -200)))

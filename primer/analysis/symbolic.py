@@ -56,9 +56,9 @@ def growth_rates(text, xi, *, at=None, order="full", multiplier=None, **paramete
     ----------
     text, at, order, parameters    as for :func:`symbol`
     xi : array          of shape s; in two space variables of shape (2,) + s
-    multiplier          ``multiplier(xi, m)`` is what the m-th derivative does to e^{i xi x}: left out, (i xi)^m; a grid's
-                        ``Grid.multiplier`` gives the growth of the semi-discrete equations. A mixed derivative is the
-                        product of those in x and in y.
+    multiplier          ``multiplier(xi, m)`` is what the m-th derivative does to e^{i xi x}: left out, (i xi)^m; a
+                        grid's ``Grid.multiplier`` gives the growth of the equations on that grid. A mixed derivative is
+                        the product of one in x and one in y.
 
     Returns
     -------
@@ -85,13 +85,14 @@ def pencil(text, *, at=None, order="full", multiplier=None, **parameters):
 def linearise(text, *, at=None, order="full", **parameters):
     """The symbol of a PDE as a sympy matrix, for eq. (toy-mat).
 
-    Names without a value stay symbols; so do the wavenumber xi, or xi_1 and xi_2 in two space variables. Other arguments
-    are those of :func:`symbol`.
+    Names without a value stay symbols; so do the wavenumber xi, or xi_1 and xi_2 in two space variables. Other
+    arguments are those of :func:`symbol`.
 
     Returns
     -------
-    sympy.Matrix    A, with lambda q = A q, if the equations can be solved for the first time derivatives; otherwise (with
-                    constraints, or a second time derivative) M, with M q = 0, whose entries contain lambda
+    sympy.Matrix    A, with lambda q = A q, if the equations can be solved for the first time derivatives; otherwise
+                    (with constraints, or a second time derivative) M, with M q = 0, whose entries contain lambda. The
+                    unknowns q are in the order in which they occur, those with a time derivative first.
     """
     system, values = _read(text, at, order, parameters)
     lam, *xi = sp.symbols("lambda xi") if system.dim == 1 else sp.symbols("lambda xi_1 xi_2")
@@ -109,7 +110,7 @@ def linearise(text, *, at=None, order="full", **parameters):
                 entry[r, system.unknowns.index(name)] += coefficient * wave
     S, E = (parts.get(n, sp.zeros(size)) for n in (0, 1))
     if max(parts) == 1 and E.det() != 0:
-        return -S if E == sp.eye(size) else (E.inv() * -S).applyfunc(_tidied)
+        return -S if sp.eye(size) == E else (E.inv() * -S).applyfunc(_tidied)
     return sum((lam**n * part for n, part in parts.items()), sp.zeros(size))
 
 

@@ -10,8 +10,8 @@ Grammar, blanks aside::
     power      = primary [ ("^" | "**") signed ]
     primary    = number | name | [ function ] "(" sum ")" [ derivatives ]
 
-A line without a left side and "=" of its own continues the one before. A name's subscript of the letters x, y, t differentiates: u_t, v_xx, u_xyt; so does one after a bracket, as the
-derivatives of the grammar: (h*u)_x.
+A line without a left side and "=" of its own continues the one before. A name's subscript of the letters x, y, t
+differentiates: u_t, v_xx, u_xyt; so does one after a bracket, the "derivatives" of the grammar: (h*u)_x.
 """
 
 import re

@@ -14,7 +14,7 @@ LARGEST = 1e6  # the largest argument of a function: the exponential of this has
 
 
 def checked(system, at, parameters):
-    """{name: sympy number} from the base state ``at`` and the keyword ``parameters``, or the one error that says all."""
+    """{name: sympy number} from the base state ``at`` and the keyword ``parameters``."""
     at = {} if at is None else at
     if not isinstance(at, dict):
         raise TypeError(f"at must be a dict of base-state values such as {{'u': -0.5}}, got {shown(at)}")

@@ -9,13 +9,9 @@ import numpy as np
 
 from primer.analysis.directions import max_growth
 from primer.analysis.drift import worst_law
-from primer.analysis.pencil import Pencil
+from primer.analysis.laws import NotPolynomialError, exact_symbol
 from primer.analysis.puiseux import branches
-from primer.analysis.recover import recovered
 from primer.analysis.supremum import supremum
-from primer.analysis.symbol import Symbol
-from primer.analysis.symbolic import symbol
-from primer.analysis.text import PDEError
 
 
 class Kind(StrEnum):
@@ -32,15 +28,21 @@ class Verdict:
 
     Attributes
     ----------
-    kind : Kind              "ill-posed" if limsup Re lambda = +infinity as |xi| -> infinity, "well-posed" if Re lambda is
-                             bounded from above (both linearly, in the paper's sense), or "undecided"
-    exponent : Fraction      the largest growth over branches and directions is
-    coefficient : float      Re lambda ~ coefficient |xi|^exponent as |xi| -> infinity. For a well-posed system that is the
-                             branch that decays least; both are 0 if its Re lambda is 0. nan if undecided
-    direction : tuple        the unit vector (or in one space variable (1.0,) or (-1.0,)) to which xi/|xi| tends there
-    bound : float            the supremum of Re lambda over all xi: inf if ill-posed, nan if undecided
-    unstable : bool          whether anything grows, bound > 0: with a finite bound that is instability, not ill-posedness
-    reason : str             one sentence
+    kind : Kind
+        "ill-posed" if limsup Re lambda = +infinity as |xi| -> infinity, "well-posed" if Re lambda is bounded from above
+        (linearly, in the paper's sense), or "undecided"
+    exponent : Fraction
+    coefficient : float
+        the largest growth, over branches and directions, is Re lambda ~ coefficient |xi|^exponent as |xi| -> infinity.
+        For a well-posed system that is the branch that decays least; both are 0 where Re lambda is. nan if undecided
+    direction : tuple
+        the unit vector to which xi/|xi| tends there; in one space variable (1.0,) or (-1.0,)
+    bound : float
+        the supremum of Re lambda over all xi: inf if ill-posed, nan if undecided
+    unstable : bool
+        whether anything grows, bound > 0; with a finite bound that is instability, not ill-posedness
+    reason : str
+        one sentence
     """
 
     kind: Kind
@@ -57,9 +59,10 @@ def verdict(pde, /, *, at=None, order="full", **parameters):
 
     Parameters
     ----------
-    pde : str, Symbol or Pencil    equations such as "u_t = -u_xx" in x, or x and y; see :func:`primer.linearise` for
-                                   ``at``, ``order`` and ``parameters``, which only a text has. A pencil's entries must be
-                                   polynomials in xi, and its verdict is as good as they are in double precision.
+    pde : str, Symbol or Pencil
+        equations such as "u_t = -u_xx", in x or in x and y; ``at``, ``order`` and ``parameters``, which only a text has,
+        are those of :func:`primer.linearise`. A pencil's entries must be polynomials in xi, and its verdict is as good
+        as they are in double precision.
 
     Returns
     -------
@@ -69,27 +72,15 @@ def verdict(pde, /, *, at=None, order="full", **parameters):
     ------
     PDEError    (a ValueError) for text that cannot be used or values that are not given
     """
-    if isinstance(pde, str):
-        exact = symbol(pde, at=at, order=order, **parameters)
-    elif at is not None or order != "full" or parameters:
-        raise TypeError("base-state values, order and parameters go with equations as text only")
-    elif isinstance(pde, Pencil):
-        exact = recovered(pde)
-        if exact is None:
-            return _undecided("the entries of the pencil are not polynomials in xi of degree 8 or less")
-    elif isinstance(pde, Symbol):
-        exact = pde
-    else:
-        raise TypeError(f"a verdict is on equations as text, or on a Pencil, got {type(pde).__name__}")
+    try:
+        exact = exact_symbol(pde, at=at, order=order, **parameters)
+    except NotPolynomialError as problem:
+        return _undecided(str(problem))
     return _judged(exact)
 
 
 def _judged(symbol):
     D = symbol.determinant
-    if not D:
-        raise PDEError("the linearised equations do not determine the unknowns: det(lambda E + S) vanishes identically")
-    if not any(n for n, _, _ in D):
-        raise PDEError("the constraints leave nothing that evolves: no perturbation has a growth rate")
     real = _is_real(D)
     law, direction, drift = _along_line(D, symbol.zero, real) if symbol.dim == 1 else _in_plane(D, symbol.zero, real)
     if symbol.dim == 2 and (doubt := _contradiction(symbol, law)):
