@@ -30,17 +30,18 @@ class Worst:
     drift: Fraction
 
 
-def worst_law(D, zero, real):
+def worst_law(D, zero, real, hints=()):
     """The fastest law of det M = D(lambda, xi_1, xi_2), a polynomial {(n, a, b): c}, over all directions.
 
-    ``real``: the equations have real coefficients, so that half of the directions tell all.
+    ``real``: the equations have real coefficients, so that half of the directions tell all. ``hints`` are angles near
+    which the coefficient may be largest.
     """
     found = []
     with mp.workdps(DIGITS):
         for sign in (1,) if real else (1, -1):
             along_x = {(n, Fraction(a + b), b): c * sign ** (a + b) for (n, a, b), c in D.items()}
             along_y = {(n, Fraction(a + b), a): c * sign ** (a + b) for (n, a, b), c in D.items()}
-            search = _Search(zero)
+            search = _Search(zero, hints)
             search.family(along_x, Fraction(0), DEPTH, None)
             search.near(along_y, Fraction(0), DEPTH, mp.inf)
             for slope in (0, 1, -1):
@@ -62,8 +63,8 @@ def _plainness(item):
 class _Search:
     """Laws of polynomials F = {(i, j, l): c}, meaning c lambda^i k^j t^l, on curves t = tau k^{-r}."""
 
-    def __init__(self, zero):
-        self.zero, self.real, self.found = zero, mp.sqrt(zero), []
+    def __init__(self, zero, hints):
+        self.zero, self.real, self.hints, self.found = zero, mp.sqrt(zero), hints, []
 
     def law(self, F, r, tau):
         P = {}
@@ -99,10 +100,13 @@ class _Search:
             return Law(found.exponent, found.coefficient * stretch ** -float(found.exponent))
 
         if slope is None:
-            s = _highest(law, np.linspace(-1.5707, 1.55, SAMPLES), None)
+            hinted = [np.arctan(np.tan(angle)) + np.array([-1e-4, 0, 1e-4]) for angle in self.hints]
+            for values in (np.linspace(-1.5707, 1.55, SAMPLES), *hinted):
+                s = _highest(law, values, None)
+                self.add(self.law(F, r, value(s)), value(s), r)
         else:
             s = _highest(law, np.array([-10, -7, -5.3, -3, 3.1, 4.9, 7, 10]), self.best())
-        self.add(self.law(F, r, value(s)), value(s) if slope is None else slope, r)
+            self.add(self.law(F, r, value(s)), slope, r)
         for tau in self.special(F, r, self.best()):
             if depth and (slope is None or tau != 0):
                 self.near(_moved(F, tau, r, self.zero), r, depth - 1, tau if slope is None else slope)
@@ -144,10 +148,10 @@ class _Search:
         found = []
         for (i, j), (i2, j2) in pairwise(hull):
             q = (j - j2) / (i2 - i)
-            if best.coefficient > 0 and not Law(q, 1.0).key[:2] > best.key[:2]:
-                continue
             edge = [family.get((n, j - q * (n - i)), [mp.mpc(0)]) for n in range(i, i2 + 1)]
             found += _real_roots(edge[0], self.zero) + _real_roots(edge[-1], self.zero)
+            if best.coefficient > 0 and q <= best.exponent:
+                continue
             mirror = [[mp.conj(c) * (-1) ** n for c in p] for n, p in enumerate(edge)]
             meeting = resultant(edge, mirror, self.zero)
             if not meeting:  # purely imaginary throughout: then where branches meet

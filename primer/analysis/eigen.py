@@ -10,7 +10,7 @@ to each entry, however different their sizes. See Bini & Noferini, Linear Algebr
 import numpy as np
 
 EPS = np.finfo(float).eps
-TINY = np.finfo(float).tiny
+TINY = 1e-150  # the square of its inverse is still a number
 LOST = 1e50  # an iterate this large is on its way to infinity
 STEPS = 60  # Ehrlich-Aberth converges cubically; graded starting values need a few dozen steps at the very most
 
@@ -28,9 +28,10 @@ def finite_eigenvalues(S, E, n):
     complex array of shape (N, n), in no order; nan where a pencil is singular or has fewer than n finite eigenvalues
     """
     lam = np.full((len(S), n), np.nan, dtype=complex)
-    regular = ~_singular(S, E) if n < S.shape[-1] else np.full(len(S), True)
+    solvable = n == S.shape[-1] and (np.abs(np.linalg.det(_scaled(E)[0])) > 1e-12).all()
+    regular = np.full(len(S), True) if solvable else ~_singular(S, E)
     if n and regular.any():
-        lam[regular] = _polished(S[regular], E[regular], _start(S[regular], E[regular], n))
+        lam[regular] = _polished(S[regular], E[regular], _start(S[regular], E[regular], n, solvable))
     return lam
 
 
@@ -55,7 +56,7 @@ def degree(S, E):
 
 
 def _polished(S, E, lam):
-    active = np.ones(lam.shape, dtype=bool)
+    active, lost = np.ones(lam.shape, dtype=bool), np.zeros(lam.shape, dtype=bool)
     last = np.full(lam.shape, np.inf)
     for _ in range(STEPS):
         rows = np.flatnonzero(active.any(axis=1))
@@ -66,15 +67,17 @@ def _polished(S, E, lam):
         gap = now[:, :, None] - now[:, None, :]
         others = np.divide(1, gap, out=np.zeros_like(gap), where=gap != 0).sum(axis=2)
         slope = newton - others
-        step = np.divide(1, slope, out=np.zeros_like(slope), where=(slope != 0) & np.isfinite(slope) & active[rows])
-        lost = np.abs(now - step) > LOST
-        lam[rows] = np.where(lost, LOST * np.exp(1j * np.arange(now.shape[1])), now - step)
+        step = np.divide(
+            1, slope, out=np.zeros_like(slope), where=(np.abs(slope) > TINY) & np.isfinite(slope) & active[rows]
+        )
+        lost[rows] |= np.abs(now - step) > LOST
+        lam[rows] = np.where(lost[rows], LOST * np.exp(1j * np.arange(now.shape[1])), now - step)
         size = np.abs(step)
         # Stop at rounding level, or when a step no longer shrinks: a zero or a multiple eigenvalue has no better value.
         done = (size <= 2 * EPS * np.abs(now)) | ((size > last[rows] / 2) & (last[rows] <= 1e-3 * np.abs(now)))
-        active[rows] &= ~(done | lost | (size == 0))
+        active[rows] &= ~(done | lost[rows] | (size == 0))
         last[rows] = size
-    lam[np.abs(lam) > LOST / 2] = np.nan
+    lam[lost] = np.nan
     return lam
 
 
@@ -121,13 +124,11 @@ def _singular(S, E):
     return (s[..., -1] <= 16 * EPS * s[..., 0]).all(axis=1)
 
 
-def _start(S, E, n):
+def _start(S, E, n, solvable):
     """Starting values from one library call: the eigenvalues of -E^-1 S, or of (mu E + S)^-1 E where E is singular."""
-    if n == S.shape[-1]:
+    if solvable:
         scaled, rows, columns = _scaled(E)
-        scale = np.abs(np.linalg.det(scaled))
-        if (scale > 1e-12).all():
-            return np.linalg.eigvals(-np.linalg.solve(scaled, rows[..., :, None] * columns[..., None, :] * S))
+        return np.linalg.eigvals(-np.linalg.solve(scaled, rows[..., :, None] * columns[..., None, :] * S))
     mu = 4 * _size(S, E) * np.exp(0.7j)
     for _ in range(2):  # the second time with a shift no larger than the largest eigenvalue asks for
         A, rows, columns = _scaled(mu[:, None, None] * E + S)

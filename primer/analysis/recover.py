@@ -7,7 +7,7 @@ from primer.analysis.symbol import Symbol
 
 DEGREES = (2, 4, 8)
 NOISE = 1e-12  # relative error of the values of a pencil's entries, with something to spare
-DIGITS = 14  # kept of a coefficient, so that equal ones come out equal
+DIGITS = 13  # kept of a coefficient, so that equal ones come out equal and the rest may count as exact
 
 
 def recovered(pencil):
@@ -52,4 +52,4 @@ def _symbol(tables, dim):
             if any(parts) and abs(value) > NOISE * largest[n] * NOISE:
                 number = mp.mpc(*(f"{p:.{DIGITS - 1}e}" for p in parts))
                 entries[r][c][n, a, b] = number / mp.mpc(0, 1) ** (a + b)
-    return Symbol(tuple(tuple(row) for row in entries), dim, mp.mpf(10) ** -10)
+    return Symbol(tuple(tuple(row) for row in entries), dim)

@@ -3,7 +3,7 @@
 import mpmath as mp
 import numpy as np
 
-from primer.analysis.roots import roots
+from primer.analysis.roots import DIGITS, roots
 
 NOISE = 1e-11  # relative real part below which an eigenvalue in double precision counts as purely imaginary
 PLACES = 6  # local maxima followed up
@@ -38,6 +38,7 @@ def supremum(symbol, law, real):
             best = _followed(pencil, s[n], angle[m], s[1] - s[0], np.pi / angles)
             values += _sharpened(symbol, *best)
             found += 1
+    values += _poles(symbol, real) if symbol.dim == 1 else []
     value, where = max(values, key=lambda item: item[0])
     tiny = 1e-14 * np.abs(np.nan_to_num(pencil.eigenvalues(_wavevector(symbol.dim, 0.0, 0.1)))).max(initial=0)
     return (0.0 if abs(value) <= tiny else value), where
@@ -76,6 +77,20 @@ def _followed(pencil, s, angle, width, turn):
     return s, angle
 
 
+def _poles(symbol, real):
+    """Wavenumbers, in one space variable, at which a branch goes to +infinity: its time derivative drops out there."""
+    top = max(n for n, _, _ in symbol.determinant)
+    leading = {a: c for (n, a, _), c in symbol.determinant.items() if n == top}
+    found = []
+    with mp.workdps(DIGITS):
+        for z, _ in roots([leading.get(a, mp.mpc(0)) for a in range(max(leading) + 1)], symbol.zero):
+            if abs(z.imag) <= mp.sqrt(symbol.zero) * abs(z) and z.real != 0:
+                for side in (1, -1):
+                    near, nearer = (_exact(symbol, z.real * (1 + side * mp.mpf(10) ** -n)) for n in (9, 12))
+                    found.append((np.inf if nearer > 2 * max(near, 0) else nearer, abs(float(z.real))))
+    return found
+
+
 def _sharpened(symbol, s, angle):
     """The growth at the top of the parabola through three places about a maximum in s, and |xi| there."""
     values = []
@@ -91,7 +106,7 @@ def _sharpened(symbol, s, angle):
 def _exact(symbol, xi):
     """max Re lambda at one wavevector from the roots of det M, with many digits; -inf if det M vanishes."""
     with mp.workdps(PRECISE):
-        xi = [mp.mpf(float(x)) for x in np.atleast_1d(xi)] + [mp.mpf(1)]
+        xi = [mp.mpf(x) for x in np.atleast_1d(xi)] + [mp.mpf(1)]
         p, size = {}, {}
         for (n, a, b), c in symbol.determinant.items():
             term = c * xi[0] ** a * (xi[1] ** b if b else 1)
