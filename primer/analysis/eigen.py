@@ -65,11 +65,8 @@ def _polished(S, E, lam):
         now = lam[rows]
         newton = _log_derivative(S[rows], E[rows], now)  # f'/f
         gap = now[:, :, None] - now[:, None, :]
-        others = np.divide(1, gap, out=np.zeros_like(gap), where=gap != 0).sum(axis=2)
-        slope = newton - others
-        step = np.divide(
-            1, slope, out=np.zeros_like(slope), where=(np.abs(slope) > TINY) & np.isfinite(slope) & active[rows]
-        )
+        others = _inverse(gap).sum(axis=2)
+        step = _inverse(newton - others) * active[rows]
         lost[rows] |= np.abs(now - step) > LOST
         lam[rows] = np.where(lost[rows], LOST * np.exp(1j * np.arange(now.shape[1])), now - step)
         size = np.abs(step)
@@ -79,6 +76,12 @@ def _polished(S, E, lam):
         last[rows] = size
     lam[lost] = np.nan
     return lam
+
+
+def _inverse(z):
+    """1/z, or zero where z or 1/z is too large or too small to compute with."""
+    size = np.abs(z)
+    return np.divide(1, z, out=np.zeros_like(z), where=(size > TINY) & (size < 1 / TINY))
 
 
 def _log_derivative(S, E, lam):

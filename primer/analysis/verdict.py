@@ -60,7 +60,7 @@ def verdict(pde, /, *, at=None, order="full", **parameters):
     Parameters
     ----------
     pde : str, Symbol or Pencil
-        equations such as "u_t = -u_xx", in x or in x and y; ``at``, ``order`` and ``parameters``, which only a text has,
+        equations such as "u_t = -u_xx", in x or in x and y; ``at``, ``order`` and ``parameters``, for text only,
         are those of :func:`primer.linearise`. A pencil's entries must be polynomials in xi, and its verdict is as good
         as they are in double precision.
 
