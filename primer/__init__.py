@@ -17,7 +17,10 @@ _HOME = {
     "CENTRAL_6": "schemes.grid",
     "FOURIER": "schemes.fourier",
     "Lines": "schemes.lines",
+    "MaxGrowth": "analysis.directions",
+    "PDEError": "analysis.text",
     "PastHorizon": "schemes.reference",
+    "Pencil": "analysis.pencil",
     "RK4": "schemes.runge_kutta",
     "RK8": "schemes.runge_kutta",
     "Reference": "schemes.reference",
@@ -25,10 +28,17 @@ _HOME = {
     "Seed": "schemes.run",
     "Stop": "schemes.run",
     "Toy": "problems.toy",
+    "Verdict": "analysis.verdict",
     "ftcs": "schemes.ftcs",
     "ftcs_ensemble": "schemes.ensemble",
+    "growth": "analysis.pencil",
+    "growth_laws": "analysis.laws",
+    "growth_rates": "analysis.symbolic",
+    "linearise": "analysis.symbolic",
     "march_lines": "schemes.lines",
+    "max_growth": "analysis.directions",
     "reference": "schemes.reference",
+    "verdict": "analysis.verdict",
 }
 _ROOMS = ("problems", "schemes", "analysis", "granular", "study", "view")
 

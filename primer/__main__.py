@@ -1,0 +1,95 @@
+"""The command line: ``primer verdict "u_t = u_xxx - u_xx"``, also as ``python -m primer``."""
+
+import argparse
+import json
+import math
+import sys
+
+from primer import __version__
+
+
+def main(arguments=None):
+    """Run one command; 0 if it did what was asked, 2 (and the reason on stderr) if the input cannot be used."""
+    options = _parser().parse_args(arguments)
+    try:
+        print(options.command(options))
+    except (ValueError, TypeError) as error:
+        print(f"primer: {error}", file=sys.stderr)
+        return 2
+    return 0
+
+
+def _parser():
+    parser = argparse.ArgumentParser(
+        prog="primer", description="A primer on ill-posed PDEs and grid-dependent computations.", allow_abbrev=False
+    )
+    parser.add_argument("--version", action="version", version=f"primer {__version__}")
+    commands = parser.add_subparsers(metavar="COMMAND", required=True)
+    _add_verdict(commands)
+    return parser
+
+
+def _add_verdict(commands):
+    sub = commands.add_parser(
+        "verdict",
+        help="is a PDE linearly ill-posed?",
+        description="Linearise a PDE about a base state, freeze it at a point, and say whether the growth of its short "
+        "waves is bounded (section A2.1). In one space variable x, or two, x and y; equations are separated by ';'.",
+        epilog="example: primer verdict 'u_t = v_x; v_t = eps*u*v_xx + u_x - v - sin(x)' --at u=-0.5 v_xx=0.3 eps=0.01",
+        allow_abbrev=False,
+    )
+    sub.add_argument("pde", metavar="PDE", help="such as 'u_t = u_xxx - u_xx'; - reads it from standard input")
+    sub.add_argument(
+        "--at",
+        "--set",
+        nargs="+",
+        action="extend",
+        default=[],
+        type=_assignment,
+        metavar="NAME=VALUE",
+        help="base-state values and parameters",
+    )
+    sub.add_argument("--order", choices=("full", "maximal"), default="full", help="which terms to keep (default: full)")
+    sub.add_argument("--json", action="store_true", help="print one JSON object")
+    sub.set_defaults(command=_verdict)
+
+
+def _verdict(options):
+    from primer.analysis.puiseux import Law
+    from primer.analysis.verdict import verdict
+
+    text = sys.stdin.read() if options.pde == "-" else options.pde
+    found = verdict(text, at=dict(options.at), order=options.order)
+    if options.json:
+        number = {"exponent": _plain(found.exponent), "exponent_text": str(found.exponent)}
+        rest = {name: _plain(getattr(found, name)) for name in ("coefficient", "bound")}
+        rest |= {"direction": list(found.direction), "unstable": found.unstable, "reason": found.reason}
+        return json.dumps({"kind": str(found.kind), **number, **rest}, indent=1)
+    rows = [("verdict", str(found.kind) + (", unstable" if found.unstable and math.isfinite(found.bound) else ""))]
+    if found.direction:
+        rows.append(("short waves", str(Law(found.exponent, found.coefficient))))
+        rows.append(("bound", f"Re lambda <= {found.bound:.10g}" if math.isfinite(found.bound) else "none"))
+    if len(found.direction) == 2:
+        rows.append(("direction", "({:.6g}, {:.6g})".format(*found.direction)))
+    return "\n".join(f"{name + ':':12s} {value}" for name, value in [*rows, ("reason", found.reason)])
+
+
+def _plain(value):
+    """A float that JSON can hold: null for nan and infinity."""
+    return float(value) if math.isfinite(value) else None
+
+
+def _assignment(text):
+    name, equals, value = text.partition("=")
+    try:
+        return name.strip(), float(value) if equals and name.strip() else _fail(text)
+    except ValueError:
+        return _fail(text)
+
+
+def _fail(text):
+    raise argparse.ArgumentTypeError(f"expected NAME=VALUE such as u=-0.5, got {text!r}")
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,212 @@
+"""The fastest growth law over all directions in two space variables, directions that drift with |xi| included.
+
+The largest growth at |xi| = k, as k -> infinity, is attained along some curve xi = k (d + tau k^{-r} d_perp + ...). The
+curves to try are finite in number: tau is free and its law changes at *special* values only, where a vertex of the
+Newton polygon vanishes, or branches meet, or one touches the imaginary axis. About each special direction the exponents
+r to try are normals of facets of the Newton polytope in (lambda, k, tau).
+"""
+
+from dataclasses import dataclass
+from fractions import Fraction
+from itertools import combinations, pairwise
+
+import mpmath as mp
+import numpy as np
+
+from primer.analysis.puiseux import Law, branches, hull_of, shifted_by
+from primer.analysis.roots import DIGITS, resultant, roots
+
+DEPTH = 2  # drifts within drifts
+LAST = -3  # terms of branches below k^LAST are left out
+SAMPLES = 25  # values of tau to begin with
+
+
+@dataclass(frozen=True)
+class Worst:
+    """The fastest law, the direction (a unit vector) it tends to, and the exponent r of the drift, 0 for none."""
+
+    law: Law
+    direction: tuple
+    drift: Fraction
+
+
+def worst_law(D, zero, real, hints=()):
+    """The fastest law of det M = D(lambda, xi_1, xi_2), a polynomial {(n, a, b): c}, over all directions.
+
+    ``real``: the equations have real coefficients, so that half of the directions tell all. ``hints`` are angles near
+    which the coefficient may be largest.
+    """
+    found = []
+    with mp.workdps(DIGITS):
+        for sign in (1,) if real else (1, -1):
+            along_x = {(n, Fraction(a + b), b): c * sign ** (a + b) for (n, a, b), c in D.items()}
+            along_y = {(n, Fraction(a + b), a): c * sign ** (a + b) for (n, a, b), c in D.items()}
+            search = _Search(zero, hints)
+            search.family(along_x, Fraction(0), DEPTH, None)
+            search.near(along_y, Fraction(0), DEPTH, mp.inf)
+            for slope in (0, 1, -1):
+                search.add(search.law(along_x, Fraction(0), mp.mpf(slope)), mp.mpf(slope), Fraction(0))
+            found += [(law, sign, slope, r) for law, slope, r in search.found]
+    top = max(law for law, _, _, _ in found)
+    # Of laws that are equal but for rounding, the one in the plainest direction.
+    law, sign, slope, r = min((item for item in found if item[0].is_near(top)), key=_plainness)
+    stretch = mp.sqrt(1 + slope**2)
+    x, y = (0.0, 1.0) if slope == mp.inf else (float(1 / stretch), float(slope / stretch))
+    return Worst(law, (sign * x, sign * y), r)
+
+
+def _plainness(item):
+    _, sign, slope, r = item
+    return r, ([0, mp.inf, 1, -1].index(slope) if slope in (0, mp.inf, 1, -1) else 4), -sign
+
+
+class _Search:
+    """Laws of polynomials F = {(i, j, l): c}, meaning c lambda^i k^j t^l, on curves t = tau k^{-r}."""
+
+    def __init__(self, zero, hints):
+        self.zero, self.real, self.hints, self.found = zero, mp.sqrt(zero), hints, []
+
+    def law(self, F, r, tau):
+        P = {}
+        for (i, j, l), c in F.items():
+            P[i, j - r * l] = P.get((i, j - r * l), 0) + c * tau**l
+        size = {}
+        for (i, j, l), c in F.items():
+            size[i, j - r * l] = size.get((i, j - r * l), 0) + abs(c * tau**l)
+        P = {power: c for power, c in P.items() if abs(c) > self.zero * size[power]}
+        found = branches(P, self.zero, self.last())
+        return found[0].law if found else Law(Fraction(0), -float("inf"))
+
+    def last(self):
+        """The order below which the real part of a branch can no longer matter."""
+        best = max((law for law, _, _ in self.found), default=None)
+        return max(LAST, best.exponent) if best and best.coefficient > 0 else LAST
+
+    def add(self, law, slope, r):
+        """Keep a law, its k the distance along the direction of this slope turned into |xi|."""
+        stretch = 1 if slope == mp.inf else float(mp.sqrt(1 + slope**2))
+        self.found.append((Law(law.exponent, law.coefficient * stretch ** -float(law.exponent)), slope, r))
+
+    def family(self, F, r, depth, slope):
+        """All of t = tau k^{-r}, tau not 0 unless r = 0; slope is that of the direction, None where tau itself is."""
+
+        def value(s):  # the parameter s -> tau
+            return mp.tan(s) if slope is None else mp.sign(s) * mp.exp(abs(s) - 5)
+
+        def law(s):
+            tau = value(s)
+            found = self.law(F, r, tau)
+            stretch = float(mp.sqrt(1 + tau**2)) if slope is None else 1.0
+            return Law(found.exponent, found.coefficient * stretch ** -float(found.exponent))
+
+        if slope is None:
+            hinted = [np.arctan(np.tan(angle)) + np.array([-1e-4, 0, 1e-4]) for angle in self.hints]
+            for values in (np.linspace(-1.5707, 1.55, SAMPLES), *hinted):
+                s = _highest(law, values, None)
+                self.add(self.law(F, r, value(s)), value(s), r)
+        else:
+            s = _highest(law, np.array([-10, -7, -5.3, -3, 3.1, 4.9, 7, 10]), self.best())
+            self.add(self.law(F, r, value(s)), slope, r)
+        for tau in self.special(F, r, self.best()):
+            if depth and (slope is None or tau != 0):
+                self.near(_moved(F, tau, r, self.zero), r, depth - 1, tau if slope is None else slope)
+
+    def near(self, F, r, depth, slope):
+        """t = 0 itself, and t = tau k^{-r'} with r' > r."""
+        self.add(self.law(F, 0, 0), slope, r)
+        P = {(i, j): c for (i, j, l), c in F.items() if l == 0}
+        exponents = _facets(F)
+        # Where branches begin with the same imaginary terms, as all do in a mean flow, the rest decides.
+        for imaginary in {terms[:n] for terms in self._imaginary(P) for n in range(1, len(terms) + 1)}:
+            moved = F
+            for q, c in imaginary:
+                moved = shifted_by(moved, c, q, 0, self.zero)
+            exponents |= _facets(moved)
+        for r2 in sorted(exponents):
+            if r2 > r:
+                self.family(F, r2, depth, slope)
+
+    def _imaginary(self, P):
+        """The purely imaginary terms with which the branches at t = 0 begin, but for the last term known."""
+        found = set()
+        for branch in branches(P, self.zero, LAST):
+            terms = tuple((q, 1j * c.imag) for q, c in branch.terms if abs(c.real) <= self.zero * abs(c))
+            found.add(terms[:2])
+        return found
+
+    def best(self):
+        return max(law for law, _, _ in self.found)
+
+    def special(self, F, r, best):
+        """Real tau where the Newton polygon of a faster law than ``best`` degenerates."""
+        family = {}
+        for (i, j, l), c in F.items():
+            column = family.setdefault((i, j - r * l), {})
+            column[l] = column.get(l, 0) + c
+        family = {power: [column.get(l, mp.mpc(0)) for l in range(max(column) + 1)] for power, column in family.items()}
+        hull = hull_of(family)
+        found = []
+        for (i, j), (i2, j2) in pairwise(hull):
+            q = (j - j2) / (i2 - i)
+            edge = [family.get((n, j - q * (n - i)), [mp.mpc(0)]) for n in range(i, i2 + 1)]
+            found += _real_roots(edge[0], self.zero) + _real_roots(edge[-1], self.zero)
+            if best.coefficient > 0 and q <= best.exponent:
+                continue
+            mirror = [[mp.conj(c) * (-1) ** n for c in p] for n, p in enumerate(edge)]
+            meeting = resultant(edge, mirror, self.zero)
+            if not meeting:  # purely imaginary throughout: then where branches meet
+                slope = [[n * c for c in p] for n, p in enumerate(edge)][1:]
+                meeting = resultant(edge, slope, self.zero) if len(slope) > 1 else []
+            found += _real_roots(meeting, self.zero)
+        distinct = []
+        for tau in sorted(tau if abs(tau) > self.real else mp.mpf(0) for tau in found):
+            if not distinct or abs(tau - distinct[-1]) > self.real * (1 + abs(tau)):
+                distinct.append(tau)
+        return distinct
+
+
+def _real_roots(p, zero):
+    if sum(c != 0 for c in p) < 2:
+        return [mp.mpf(0)] if len(p) > 1 and p[0] == 0 else []
+    return [z.real for z, _ in roots(p, zero) if abs(mp.im(z)) <= mp.sqrt(zero) * (1 + abs(z))]
+
+
+def _moved(F, tau, r, zero):
+    """F with t = tau k^{-r} + a new t."""
+    return shifted_by(F, tau, -r, 2, zero)
+
+
+def _facets(F):
+    """Drift exponents r > 0 of the facets of the Newton polytope whose outer normals are (q, 1, -r)."""
+    top = {}
+    for i, j, l in F:
+        top[i, l] = max(j, top.get((i, l), j))
+    points = [(i, j, l) for (i, l), j in top.items()]
+    # A point with a lower power of k and a higher one of t than another never counts.
+    points = [p for p in points if not any(o != p and o[0] == p[0] and o[1] >= p[1] and o[2] <= p[2] for o in points)]
+    scale = int(np.lcm.reduce([p[1].denominator for p in points]))
+    points = np.array([(i, int(j * scale), l) for i, j, l in points], dtype=np.int64)
+    found = set()
+    for a, b, c in combinations(range(len(points)), 3):
+        n = np.cross(points[b] - points[a], points[c] - points[a])
+        n = n if n[1] > 0 else -n
+        if n[1] > 0 and n[2] < 0 and ((points - points[a]) @ n <= 0).all():
+            found.add(Fraction(int(-n[2]), int(n[1])) / scale)
+    return found
+
+
+def _highest(law, s, rival):
+    """Where law(s) is fastest: the best of the values s, sought more finely if there is a chance against ``rival``."""
+    laws = [law(x) for x in s]
+    best = max(range(len(s)), key=lambda n: laws[n])
+    centre, top, width = s[best], laws[best], np.diff(s).max()
+    if all(other.is_near(top) for other in laws) or (rival and top.key[:2] < rival.key[:2]):
+        return centre
+    start = abs(top.coefficient)
+    while width > 1e-8 and abs(top.coefficient) < 1e4 * start + 1:  # no further towards a pole: a special direction
+        for x in (centre - width / 2, centre + width / 2):
+            trial = law(x)
+            if trial > top:
+                centre, top = x, trial
+        width /= 2.5
+    return centre

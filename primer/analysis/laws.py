@@ -1,0 +1,74 @@
+"""Growth laws along one direction, for equations as text or as a pencil."""
+
+from collections import defaultdict
+
+import mpmath as mp
+import numpy as np
+
+from primer.analysis.pencil import Pencil
+from primer.analysis.puiseux import branches
+from primer.analysis.recover import recovered
+from primer.analysis.roots import DIGITS
+from primer.analysis.symbol import Symbol
+from primer.analysis.symbolic import symbol
+from primer.analysis.text import PDEError
+from primer.checks import real_array, shown
+
+
+class NotPolynomialError(ValueError):
+    """The entries of a pencil are not polynomials in xi, so that there is no Newton polygon."""
+
+
+def growth_laws(pde, /, direction=None, *, at=None, order="full", **parameters):
+    """How each branch lambda(k) behaves along xi = k direction, k -> infinity: by the Newton polygon, exactly.
+
+    Parameters
+    ----------
+    direction : number, or pair of numbers    by default 1, or (1, 0); only its direction counts
+    others                                    as for :func:`primer.verdict`
+
+    Returns
+    -------
+    list of Branch, the fastest growing first: ``branch.exponent`` and ``branch.coefficient`` of its leading term, and
+    ``branch.law`` for the real part of lambda, which may be of a lower order
+
+    Raises
+    ------
+    ValueError    as for :func:`primer.verdict`, and for a pencil whose entries are not polynomials in xi
+    """
+    exact = exact_symbol(pde, at=at, order=order, **parameters)
+    d = np.atleast_1d(real_array("direction", [1, 0][: exact.dim] if direction is None else direction))
+    if d.shape != (exact.dim,) or not d.any():
+        raise ValueError(f"direction must be {exact.dim} number(s), not all zero, got {shown(direction)}")
+    with mp.workdps(DIGITS):
+        d = [mp.mpf(repr(float(x))) for x in d]
+        length = mp.sqrt(sum(x**2 for x in d))
+        d = [*(x / length for x in d), mp.mpf(1)]
+        P, size = defaultdict(mp.mpc), defaultdict(mp.mpf)
+        for (n, a, b), c in exact.determinant.items():
+            term = c * d[0] ** a * d[1] ** b
+            P[n, a + b] += term
+            size[n, a + b] += abs(term)
+        return branches({power: c for power, c in P.items() if abs(c) > exact.zero * size[power]}, exact.zero)
+
+
+def exact_symbol(pde, *, at=None, order="full", **parameters):
+    """The :class:`Symbol` of a text, a Pencil or a Symbol, its determinant checked: something evolves, and uniquely."""
+    if isinstance(pde, str):
+        exact = symbol(pde, at=at, order=order, **parameters)
+    elif at is not None or order != "full" or parameters:
+        raise TypeError("base-state values, order and parameters go with equations as text only")
+    elif isinstance(pde, Pencil):
+        exact = recovered(pde)
+        if exact is None:
+            raise NotPolynomialError("the entries of the pencil are not polynomials in xi of degree 8 or less")
+    elif isinstance(pde, Symbol):
+        exact = pde
+    else:
+        raise TypeError(f"equations must be given as text, or as a Pencil, got {type(pde).__name__}")
+    D = exact.determinant
+    if not D:
+        raise PDEError("the linearised equations do not determine the unknowns: det(lambda E + S) vanishes identically")
+    if not any(n for n, _, _ in D):
+        raise PDEError("the constraints leave nothing that evolves: no perturbation has a growth rate")
+    return exact

@@ -1,0 +1,177 @@
+"""Linearise: from the tree of a text to the derivatives of its equations by every unknown and its derivatives.
+
+Each derivative is a symbol of its own (u, u_x, v_xx ...), so that linearising is differentiating by each of them.
+"""
+
+from collections import Counter
+from dataclasses import dataclass
+
+import sympy as sp
+
+from primer.analysis.text import PDEError, parse, split_name
+
+ORDER = 12  # the highest derivative
+OPERATIONS = 3000  # the longest expression that the derivative of a bracket may grow to
+BITS = 4000  # the largest constant, in bits
+POWER = 1000  # the largest exponent
+VARIABLES = ("x", "y", "t")
+CONSTANTS = {"i": sp.I, "pi": sp.pi}
+
+
+@dataclass(frozen=True)
+class System:
+    """Equations F = left - right = 0, and their linearisation.
+
+    Attributes
+    ----------
+    text : str
+    unknowns : tuple of str     in the order in which they occur, those with a time derivative first
+    parameters : tuple of str   the names that are neither unknowns nor x, y, t
+    dim : int                   the number of space variables: 2 if y occurs, or a derivative by y; else 1
+    slopes : tuple of dicts     for each equation {(unknown, (n, a, b)): slope}, the slope of F by the unknown's n-th
+                                t-, a-th x- and b-th y-derivative
+    """
+
+    text: str
+    unknowns: tuple
+    parameters: tuple
+    dim: int
+    slopes: tuple
+
+
+def read(text, given=()):
+    """The :class:`System` of a text. ``given`` are names with values: unknowns only if differentiated by name."""
+    equations = parse(text)
+    uses = Counter()  # (name, its own derivatives, those of the brackets around it): in the order of the text
+    for equation in equations:
+        for side in equation:
+            _collect(side, "", uses)
+    unknowns = _unknowns(uses, len(equations), given)
+    builder = _Builder(text, unknowns)
+    slopes = tuple(_slopes(builder.build(left) - builder.build(right), unknowns) for left, right in equations)
+    names = dict.fromkeys(base for base, _, _ in uses if base not in unknowns and base not in VARIABLES)
+    dim = 2 if any(base == "y" or "y" in own + around for base, own, around in uses) else 1
+    return System(text, unknowns, tuple(names), dim, slopes)
+
+
+def _collect(node, around, uses):
+    if node.kind == "name" and node.value not in CONSTANTS:
+        uses[*split_name(node.value), around] += 1
+    for operand in node.operands:
+        _collect(operand, around + (node.value if node.kind == "derivative" else ""), uses)
+
+
+def _unknowns(uses, number, given):
+    """The names differentiated; and, where those are too few, names in differentiated brackets or in constraints."""
+    order = [name for name in dict.fromkeys(base for base, _, _ in uses) if name not in VARIABLES]
+    evolved = {base for base, own, around in uses if "t" in own + around}
+    order.sort(key=lambda name: name not in evolved)
+    direct = {base for base, own, _ in uses if own}
+    wider = (
+        set(),
+        {base for base, _, around in uses if "t" in around},
+        {base for base, _, around in uses if around},
+        {base for base, _, _ in uses},
+    )
+    for others in wider:
+        unknowns = tuple(name for name in order if name in direct or (name in others and name not in given))
+        if len(unknowns) == number:
+            return unknowns
+    unknowns = tuple(name for name in order if name in direct)
+    if not unknowns:
+        raise PDEError("nothing is differentiated: derivatives are written u_t, v_xx, (u*v)_x")
+    raise PDEError(
+        f"{number} equation{'s' * (number > 1)} for {len(unknowns)} unknown{'s' * (len(unknowns) > 1)} "
+        f"({', '.join(unknowns)}): there must be as many of one as of the other"
+    )
+
+
+def _slopes(F, unknowns):
+    found = {}
+    for symbol in sorted(F.free_symbols, key=str):
+        base, letters = split_name(symbol.name)
+        slope = sp.diff(F, symbol) if base in unknowns else 0
+        if slope != 0:
+            found[base, tuple(letters.count(c) for c in "txy")] = slope
+    return found
+
+
+class _Builder:
+    """Sympy expressions from nodes, every operation checked before it is done: no number can grow out of hand."""
+
+    def __init__(self, text, unknowns):
+        self.text, self.unknowns = text, unknowns
+
+    def fail(self, problem, node):
+        raise PDEError(problem, self.text, node.place)
+
+    def build(self, node):
+        build = {"+": self.sum, "*": self.product, "-": self.minus, "/": self.reciprocal, "^": self.power}
+        value = build.get(node.kind, getattr(self, node.kind, None))(node)
+        if value.has(sp.zoo, sp.nan, sp.oo, sp.S.NegativeInfinity):
+            self.fail("a value that is not finite", node)
+        if any(power.exp.is_Rational and abs(power.exp) > POWER for power in value.atoms(sp.Pow)):
+            self.fail(f"a power above the {POWER} allowed", node)
+        return value
+
+    def number(self, node):
+        digits, imaginary = node.value
+        _, _, exponent = digits.lower().partition("e")
+        if len(digits) > 60 or abs(int(exponent or 0)) > 300:
+            self.fail("a number with more digits, or a larger exponent, than is allowed", node)
+        value = sp.Rational(digits)
+        return value * sp.I if imaginary else value
+
+    def name(self, node):
+        if node.value in CONSTANTS:
+            return CONSTANTS[node.value]
+        base, letters = split_name(node.value)
+        if base in VARIABLES and letters:
+            self.fail(f"{base} is an independent variable and cannot be differentiated", node)
+        return self.symbol(base, letters, node)
+
+    def symbol(self, base, letters, node):
+        if len(letters) > ORDER:
+            self.fail(f"a derivative of order {len(letters)}, above the {ORDER} allowed", node)
+        return sp.Symbol(f"{base}_{''.join(sorted(letters))}" if letters else base)
+
+    def sum(self, node):
+        return sp.Add(*(self.build(term) for term in node.operands))
+
+    def product(self, node):
+        return sp.Mul(*(self.build(factor) for factor in node.operands))
+
+    def minus(self, node):
+        return -self.build(node.operands[0])
+
+    def reciprocal(self, node):
+        value = self.build(node.operands[0])
+        return self.fail("division by zero", node) if value == 0 else 1 / value
+
+    def power(self, node):
+        base, exponent = (self.build(operand) for operand in node.operands)
+        if base == 0 and not exponent.is_positive:
+            self.fail("division by zero", node)
+        if exponent.is_Rational:
+            bits = max((abs(a.p) * a.q).bit_length() for a in [*base.atoms(sp.Rational), sp.S.One])
+            if abs(exponent) > 100 or exponent.q > 100 or abs(exponent) * bits > BITS:
+                self.fail("a power that is too large", node)
+        return base**exponent
+
+    def call(self, node):
+        argument = self.build(node.operands[0])
+        # sqrt(z^2) has a derivative that can be evaluated where z is real; that of sympy's Abs has not.
+        return sp.sqrt(argument**2) if node.value == "abs" else getattr(sp, node.value)(argument)
+
+    def derivative(self, node):
+        value = self.build(node.operands[0])
+        for letter in node.value:
+            change = [sp.diff(value, sp.Symbol(letter))]
+            for symbol in sorted(value.free_symbols, key=str):
+                base, letters = split_name(symbol.name)
+                if base in self.unknowns:
+                    change.append(sp.diff(value, symbol) * self.symbol(base, letters + letter, node))
+            value = sp.Add(*change)
+            if value.count_ops() > OPERATIONS:
+                self.fail("a derivative that grows too long", node)
+        return value

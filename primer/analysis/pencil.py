@@ -1,0 +1,146 @@
+"""Frozen-coefficient symbols as matrix pencils, and the growth of the exponentials they admit (section A2.1)."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+
+from primer.analysis.eigen import degree, finite_eigenvalues
+from primer.checks import integer, real_array
+
+
+@dataclass(frozen=True)
+class Pencil:
+    """Perturbations q e^{i<xi, x> + lambda t} of frozen-coefficient equations: lambda E q = -S(xi) q, as in eq. (e24).
+
+    Parameters
+    ----------
+    S : callable, or constant array
+        ``S(xi)`` is the k x k symbol. In one space variable xi is a number or an array of shape s; in two it has its
+        component axis *first*, shape (2,) + s, so that ``xi1, xi2 = xi`` works for one wavevector and for many. S
+        returns shape s + (k, k); one that can only serve a single wavevector (a nested list of scalars, say) is called
+        once for each.
+    E : array of shape (k, k), or a callable of xi like S
+        the coefficients of the time derivatives. It may be singular: a row of zeros is a constraint (div u = 0).
+    dim : int
+        the number of space variables, 1 or 2
+
+    Raises
+    ------
+    TypeError, ValueError    if the shapes do not fit, or det(lambda E + S) vanishes identically: then the equations do
+                             not determine the unknowns
+    """
+
+    S: Callable | np.ndarray
+    E: Callable | np.ndarray
+    dim: int = 1
+    size: int = field(init=False)
+
+    def __post_init__(self):
+        object.__setattr__(self, "dim", integer("dim", self.dim, least=1, most=2))
+        for name in ("S", "E"):
+            if not callable(getattr(self, name)):
+                object.__setattr__(self, name, _square(name, getattr(self, name)))
+        single = _square("E", self.E(self._probe[..., 0]) if callable(self.E) else self.E)
+        object.__setattr__(self, "size", len(single))
+        if _square("S", self.S(self._probe[..., 0]) if callable(self.S) else self.S).shape != single.shape:
+            raise ValueError("S and E must be square matrices of the same size")
+        if self.count < 0:
+            raise ValueError(
+                "the pencil is singular: det(lambda E + S) vanishes identically, so the equations do not determine the "
+                "unknowns"
+            )
+
+    @property
+    def _probe(self):
+        """Wavevectors in general position, more of them than the matrices can be wide."""
+        j = np.arange(1, 12)
+        xi = np.stack([1.1 + 0.37 * np.sin(2.3 * j), -0.7 + 0.41 * np.cos(1.7 * j)])
+        return xi if self.dim == 2 else xi[0]
+
+    @cached_property
+    def count(self):
+        """The number of finite eigenvalues at wavevectors in general position."""
+        S, E = self.matrices(self._probe[..., :3])
+        return max(degree(s, e) for s, e in zip(S, E, strict=True))
+
+    @cached_property
+    def is_real(self):
+        """Whether the equations have real coefficients: S(-xi) is the conjugate of S(xi), and E likewise."""
+        plus, minus = self.matrices(self._probe), self.matrices(-self._probe)
+        return all(np.allclose(a, b.conj(), rtol=1e-12, atol=0) for a, b in zip(plus, minus, strict=True))
+
+    @cached_property
+    def _vectorised(self):
+        return {name: _serves_many(getattr(self, name), self._probe, self.size) for name in ("S", "E")}
+
+    def matrices(self, xi):
+        """(S, E) at wavevectors xi of shape s, or (2,) + s: complex arrays of shape s + (k, k)."""
+        xi = self.wavevectors(xi)
+        shape = xi.shape if self.dim == 1 else xi.shape[1:]
+        flat = xi.reshape(-1) if self.dim == 1 else xi.reshape(2, -1)
+        return tuple(self._values(name, flat).reshape(*shape, self.size, self.size) for name in ("S", "E"))
+
+    def wavevectors(self, xi):
+        """xi as a float array, its shape checked."""
+        xi = real_array("xi", xi)
+        if self.dim == 2 and (xi.ndim == 0 or len(xi) != 2):
+            raise ValueError(f"xi must have shape (2, ...) for two space variables, got shape {xi.shape}")
+        return xi
+
+    def _values(self, name, xi):
+        f, n = getattr(self, name), xi.shape[-1]
+        if not callable(f):
+            return np.broadcast_to(f, (n, *f.shape))
+        if self._vectorised[name]:
+            return np.asarray(f(xi), dtype=complex)
+        values = [np.asarray(f(xi[..., j]), dtype=complex) for j in range(n)]
+        return np.array(values).reshape(n, self.size, self.size)
+
+    def eigenvalues(self, xi):
+        """The finite eigenvalues lambda at xi of shape s, or (2,) + s.
+
+        Returns
+        -------
+        complex array of shape s + (count,), sorted by decreasing real part. Small eigenvalues are as accurate as large
+        ones, relative to what rounding of S's entries allows. Where a wavevector has fewer (or leaves some unknown
+        undetermined, as xi = 0 does for a pressure) the places at the end (or all) are nan.
+        """
+        S, E = self.matrices(xi)
+        lam = finite_eigenvalues(S.reshape(-1, *S.shape[-2:]), E.reshape(-1, *E.shape[-2:]), self.count)
+        order = np.argsort(np.where(np.isnan(lam.real), np.inf, -lam.real), axis=-1, kind="stable")
+        return np.take_along_axis(lam, order, axis=-1).reshape(*S.shape[:-2], self.count)
+
+
+def growth(pencil, xi):
+    """The growth rate max Re lambda over the finite eigenvalues, at xi of shape s or (2,) + s: shape s.
+
+    -inf if there is none (no equation contains a time derivative).
+    """
+    lam = pencil.eigenvalues(xi)
+    return lam[..., 0].real if pencil.count else np.full(lam.shape[:-1], -np.inf)
+
+
+def _square(name, value):
+    try:
+        value = np.asarray(value, dtype=complex)
+    except (TypeError, ValueError):
+        raise TypeError(f"{name} must give a matrix of numbers, got {type(value).__name__}") from None
+    if value.ndim != 2 or value.shape[0] != value.shape[1] or not value.size:
+        raise ValueError(f"{name} must give one square matrix for one wavevector, got shape {value.shape}")
+    if not np.isfinite(value).all():
+        raise ValueError(f"{name} must be finite everywhere")
+    return value
+
+
+def _serves_many(f, xi, size):
+    """Whether f gives the same matrices for many wavevectors at once as one by one."""
+    if not callable(f):
+        return True
+    one_by_one = np.array([np.asarray(f(xi[..., j]), dtype=complex) for j in range(xi.shape[-1])])
+    try:
+        together = np.asarray(f(xi), dtype=complex)
+    except Exception:  # any complaint of a function written for one wavevector
+        return False
+    return together.shape == one_by_one.shape and np.allclose(together, one_by_one, rtol=1e-12, atol=0)

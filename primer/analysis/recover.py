@@ -1,0 +1,55 @@
+"""From a pencil back to its coefficients, where its entries are polynomials in xi."""
+
+import mpmath as mp
+import numpy as np
+
+from primer.analysis.symbol import Symbol
+
+DEGREES = (2, 4, 8)
+NOISE = 1e-12  # relative error of the values of a pencil's entries, with something to spare
+DIGITS = 13  # kept of a coefficient, so that equal ones come out equal and the rest may count as exact
+
+
+def recovered(pencil):
+    """The :class:`Symbol` of a pencil: its coefficients, by interpolation at whole numbers; None if they do not fit."""
+    for degree in DEGREES:
+        node = np.arange(-(degree // 2), degree // 2 + 1.0)
+        axes = np.meshgrid(*[node] * pencil.dim, indexing="ij")
+        S, E = pencil.matrices(axes[0] if pencil.dim == 1 else np.stack(axes))
+        inverse = np.linalg.inv(np.vander(node, increasing=True))
+        tables = []
+        for values in (S, E):
+            for axis in range(pencil.dim):
+                values = np.moveaxis(np.tensordot(inverse, values, axes=(1, axis)), 0, axis)
+            tables.append(values if pencil.dim == 2 else values[:, None])
+        if _fits(pencil, tables):
+            return _symbol(tables, pencil.dim)
+    return None
+
+
+def _fits(pencil, tables):
+    xi = pencil._probe
+    x, y = xi if pencil.dim == 2 else (xi, np.ones_like(xi))
+    for values, table in zip(pencil.matrices(xi), tables, strict=True):
+        powers = x ** np.arange(len(table))[:, None], y ** np.arange(table.shape[1])[:, None]
+        terms = np.einsum("an,bn,abrc->nabrc", *powers, table)
+        if (np.abs(values - terms.sum(axis=(1, 2))) > 1e-9 * (np.abs(terms).sum(axis=(1, 2)) + np.abs(values))).any():
+            return False
+    return True
+
+
+def _symbol(tables, dim):
+    size = tables[0].shape[-1]
+    largest = [np.abs(table).max() for table in tables]
+    entries = [[{} for _ in range(size)] for _ in range(size)]
+    for n, table in enumerate(tables):
+        for (a, b, r, c), value in np.ndenumerate(table):
+            # Rounding errors of the interpolation, and of the value itself.
+            parts = [
+                p if abs(p) > NOISE * max(abs(value), np.abs(table[..., r, c]).max()) else 0.0
+                for p in (value.real, value.imag)
+            ]
+            if any(parts) and abs(value) > NOISE * largest[n] * NOISE:
+                number = mp.mpc(*(f"{p:.{DIGITS - 1}e}" for p in parts))
+                entries[r][c][n, a, b] = number / mp.mpc(0, 1) ** (a + b)
+    return Symbol(tuple(tuple(row) for row in entries), dim)

@@ -1,0 +1,114 @@
+"""Symbols with their coefficients known: polynomial matrices M(lambda, xi), and det M without rounding.
+
+A polynomial is a dict {(n, a, b): c} standing for the sum of c lambda^n xi_1^a xi_2^b; b = 0 in one space variable.
+"""
+
+from collections import defaultdict
+from dataclasses import dataclass
+from functools import cached_property
+
+import mpmath as mp
+import numpy as np
+
+from primer.analysis.pencil import Pencil
+from primer.analysis.roots import DIGITS, ZERO
+
+
+@dataclass(frozen=True)
+class Symbol:
+    """M(lambda, xi) of frozen-coefficient equations M q = 0: entry [r][c] is what equation r does to unknown c.
+
+    Attributes
+    ----------
+    entries : tuple of tuples of polynomials {(n, a, b): c} in lambda and the derivatives (d/dx, d/dy) = i xi: the
+        coefficients of time derivatives of order n and space derivatives of orders a and b
+    dim : int       the number of space variables
+    zero : float    the relative size below which a sum of cancelling coefficients counts as zero
+    """
+
+    entries: tuple
+    dim: int = 1
+    zero: float = ZERO
+
+    @cached_property
+    def determinant(self):
+        """det M as a polynomial {(n, a, b): c} in lambda, xi_1, xi_2, without the terms that cancel."""
+        with mp.workdps(DIGITS):
+            rows = [
+                [{p: (c * mp.mpc(0, 1) ** (p[1] + p[2]), abs(c)) for p, c in entry.items()} for entry in row]
+                for row in self.entries
+            ]
+            minors = {frozenset(): {(0, 0, 0): (mp.mpc(1), mp.mpf(1))}}
+            for row in rows:  # expanded along the rows, each minor once
+                minors = _next_minors(row, minors)
+            (whole,) = minors.values()
+            return {power: value for power, (value, size) in whole.items() if abs(value) > self.zero * size}
+
+    def pencil(self, multiplier=None):
+        """The symbol as numbers: a :class:`Pencil`, with extra unknowns that stand for u_t where u_tt occurs.
+
+        ``multiplier(xi, m)`` replaces (i xi)^m; it is called with m >= 1.
+        """
+        orders = [max((n for row in self.entries for n, _, _ in row[c]), default=0) for c in range(len(self.entries))]
+        width = len(orders)
+        place = {}  # (unknown, time derivatives) -> column
+        for c, order in enumerate(orders):
+            place[c, 0] = c
+            for n in range(1, order):
+                place[c, n], width = width, width + 1
+        S, E = defaultdict(list), defaultdict(list)
+        for r, row in enumerate(self.entries):
+            for c, entry in enumerate(row):
+                for (n, a, b), value in entry.items():
+                    top = n and n == orders[c]
+                    (E if top else S)[r, place[c, n - 1 if top else n]].append((complex(value), a, b))
+        for (c, n), column in place.items():
+            if n:
+                E[column, place[c, n - 1]].append((1, 0, 0))
+                S[column, column].append((-1, 0, 0))
+        return Pencil(_Matrix(S, width, self.dim, multiplier), _Matrix(E, width, self.dim, multiplier), self.dim)
+
+
+@dataclass(frozen=True, eq=False)
+class _Matrix:
+    """The matrix of sums of c (i xi_1)^a (i xi_2)^b, a callable of xi as a Pencil wants it."""
+
+    sums: dict
+    width: int
+    dim: int
+    multiplier: object
+
+    def __call__(self, xi):
+        axes = [xi] if self.dim == 1 else list(xi)
+        powers = {}
+        value = np.zeros((*np.shape(axes[0]), self.width, self.width), dtype=complex)
+        for (r, c), terms in self.sums.items():
+            for factor, *orders in terms:
+                term = factor
+                for axis, m in enumerate(orders):
+                    if m:
+                        if (axis, m) not in powers:
+                            powers[axis, m] = self._derivative(axes[axis], m)
+                        term = term * powers[axis, m]
+                value[..., r, c] += term
+        return value
+
+    def _derivative(self, xi, m):
+        return self.multiplier(xi, m) if self.multiplier else 1j**m * xi**m
+
+
+def _next_minors(row, minors):
+    """Minors of one more row: {columns: {power: (value, sum of absolute values)}}."""
+    longer = {}
+    for columns, minor in minors.items():
+        for c, entry in enumerate(row):
+            if c in columns or not entry or not minor:
+                continue
+            sign = (-1) ** sum(other > c for other in columns)
+            target = longer.setdefault(columns | {c}, {})
+            for p, (a, a_size) in entry.items():
+                for q, (b, b_size) in minor.items():
+                    power = tuple(m + n for m, n in zip(p, q, strict=True))
+                    value, size = target.get(power, (0, 0))
+                    target[power] = value + sign * a * b, size + a_size * b_size
+    return longer or {frozenset(): {}}
