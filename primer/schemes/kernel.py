@@ -86,45 +86,42 @@ def _compile(equation, members):
         _ = equation  # a part of the cache's key, and nothing else
         cells = w.shape[2] - 2 * members
         step = clock[0].max()
-        u, v = w[step % 2, 0], w[step % 2, 1]
-        u_new, v_new = w[1 - step % 2, 0], w[1 - step % 2, 1]
         eps_0 = eps[0]
         look_at, ceiling = step, far - far
         running = clock[2].min() == 0
         while step < until and running:
+            # Taken from w anew each step: swapped names would keep the sweep from becoming vector instructions.
+            u, v = w[step % 2, 0], w[step % 2, 1]
+            u_new, v_new = w[1 - step % 2, 0], w[1 - step % 2, 1]
             for m in range(members):
                 u[m], u[cells + members + m] = u[cells + m], u[members + m]
                 v[m], v[cells + members + m] = v[cells + m], v[members + m]
             calm = True
-            for k in range(members, cells + members):
+            for i in range(cells):
+                k = i + members  # an index k - members, which might be negative, would do the same harm
                 u_k, v_k = _step(
-                    u[k - members], u[k], u[k + members], v[k - members], v[k], v[k + members],
+                    u[i], u[k], u[k + members], v[i], v[k], v[k + members],
                     sin_x[k], r1, r2, dt, eps_0 if members == 1 else eps[k],
                 )  # fmt: skip
                 u_new[k], v_new[k] = u_k, v_k
                 calm &= abs(v_k) <= ceiling
             step += 1
-            u, u_new = u_new, u
-            v, v_new = v_new, v
             if calm and step < look_at:
                 continue
             look_at, ceiling, running = until, far - far, False
             for m in range(members):
-                u_m, v_m = u[members + m : cells + members : members], v[members + m : cells + members : members]
+                mine = slice(members + m, cells + members, members)
+                u_m, v_m = u_new[mine], v_new[mine]
                 if clock[2, m] == 0:
                     then, top_v = _look(
-                        u_m, v_m, u_inf[members + m : cells + members : members], m, r1, dt, far, drift, step,
+                        u_m, v_m, u_inf[mine], m, r1, dt, far, drift, step,
                         every, clock, dist2, u_min, shot_steps, shots,
                     )  # fmt: skip
                     look_at, ceiling = min(look_at, then), max(ceiling, top_v)
                 if clock[2, m] == 0:
                     running = True
                 else:  # put to rest, at its steady state with eps = 0
-                    u_m[:], v_m[:], eps[m::members] = (
-                        u_inf[members + m : cells + members : members],
-                        far - far,
-                        far - far,
-                    )
+                    u_m[:], v_m[:], eps[mine] = u_inf[mine], far - far, far - far
 
     return march
 

@@ -2,10 +2,12 @@
 
 FTCS for a = 1.5, N = 100, 100,000 steps and 1001 records: ``primer.ftcs`` against the scheme in np.roll, against the
 best preallocated NumPy loop we could write, against a C loop (where there is a C compiler) and against py-pde's
-compiled Euler solver (where it is installed). The slow ones march fewer steps and are scaled.
+compiled Euler solver (where it is installed). The slow ones march fewer steps and are scaled. Then 64 values of a as
+an ensemble.
 """
 
 import ctypes
+import os
 import shutil
 import subprocess
 import sys
@@ -15,7 +17,7 @@ from pathlib import Path
 
 import numpy as np
 
-from primer import Toy, ftcs
+from primer import Toy, ftcs, ftcs_ensemble
 from primer.schemes.grid import CENTRAL, Grid
 
 TOY, N, DT, STEPS = Toy(1.5), 100, 1e-3, 100_000
@@ -136,6 +138,16 @@ def main():
     rivals += [("py-pde, numba backend", pde_solve, 10)] if pde_solve else []
     for name, function, scale in rivals:
         print(f"{name:24s} {seconds(function, 3) * scale / own:8.1f} times as long")
+    toys = [Toy(a) for a in np.linspace(1.2, 2, 64)]
+
+    def one_by_one():
+        return [ftcs(toy, N, DT, STEPS * DT) for toy in toys]
+
+    def side_by_side():
+        return ftcs_ensemble(toys, N, DT, STEPS * DT)
+
+    shares = [seconds(side_by_side, 1) / seconds(one_by_one, 1) for _ in range(5)]
+    print(f"{'64 as an ensemble':24s} {np.median(shares):8.3f} of the time of 64 runs, {os.cpu_count()} cores")
     if loop:
         pairs = [(seconds(kernel, 5), seconds(loop, 5)) for _ in range(7)]
         print(f"{'C loop':24s} {np.median([c / k for k, c in pairs]):8.3f} times as long")
