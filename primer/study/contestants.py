@@ -54,8 +54,8 @@ def contestants(with_py_pde=None):
     methods += [
         Method("reference", _reference, tolerances, by_points=False),
         Method("solve_ivp RK45, central 2", _solve_ivp_by_points, doubling),
-        Method("solve_ivp LSODA, Fourier", partial(_solve_ivp, method="LSODA"), tolerances, by_points=False),
-        Method("solve_ivp DOP853, Fourier", partial(_solve_ivp, method="DOP853"), tolerances, by_points=False),
+        Method("solve_ivp LSODA, Fourier", partial(solve_ivp, method="LSODA"), tolerances, by_points=False),
+        Method("solve_ivp DOP853, Fourier", partial(solve_ivp, method="DOP853"), tolerances, by_points=False),
     ]
     if with_py_pde or (with_py_pde is None and find_spec("pde")):
         methods.append(Method("py-pde", _py_pde, (25, 50, 100)))
@@ -84,8 +84,8 @@ def _reference(toy, tol, t_end):
     return answer.x, (answer.u[0], answer.v[0]), math.nan
 
 
-def _solve_ivp(toy, tol, t_end, method, n=None, space=FOURIER):
-    from scipy.integrate import solve_ivp
+def solve_ivp(toy, tol, t_end, method, n=None, space=FOURIER):
+    from scipy.integrate import solve_ivp as integrate
 
     n = n or (12 if tol > 1e-7 else 16 if tol > 1e-11 else 24)
     grid = Grid(n)
@@ -97,13 +97,13 @@ def _solve_ivp(toy, tol, t_end, method, n=None, space=FOURIER):
     def slope(t, y):
         return np.concatenate(toy.rhs(x, y.reshape(2, -1), derivative, forcing))
 
-    solution = solve_ivp(slope, (0, t_end), np.concatenate(toy.initial(x)), method, (t_end,), rtol=tol, atol=tol)
+    solution = integrate(slope, (0, t_end), np.concatenate(toy.initial(x)), method, (t_end,), rtol=tol, atol=tol)
     return x, solution.y[:, -1].reshape(2, -1), math.nan
 
 
 def _solve_ivp_by_points(toy, n, t_end):
     """As it is usually written: second-order differences and the default method, at a tolerance to match."""
-    return _solve_ivp(toy, Grid(n).h ** 2 / 100, t_end, "RK45", n, CENTRAL)
+    return solve_ivp(toy, Grid(n).h ** 2 / 100, t_end, "RK45", n, CENTRAL)
 
 
 def _py_pde(toy, n, t_end):
