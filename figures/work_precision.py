@@ -2,7 +2,8 @@
 
 Left: the toy system with a = 1.5 to t = 5; each line is one method on finer grids or at tighter tolerances, and a ring
 marks what nothing else beats in both error and time. Right: what a march to t = 5 costs on N points, with the largest
-step that is stable and accurate enough: explicit steps pay N^3 as soon as diffusion limits them. The wall times were
+step that is stable and accurate enough: explicit steps pay N^3 as soon as diffusion limits them. (All loops are
+compiled but those of scipy, and of Fourier on more than 128 points, NumPy's transforms.) The wall times were
 measured once, on one machine, by tests/benchmarks/work_precision.py, and are read from work_precision.measured.json;
 errors are computed again by --check.
 """

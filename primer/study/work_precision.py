@@ -12,6 +12,8 @@ from primer.problems.toy import Toy
 from primer.schemes.reference import reference
 from primer.study.contestants import contestants
 
+_AT_LEAST = 0.05  # seconds over which short runs are repeated
+
 
 @dataclass(frozen=True)
 class Point:
@@ -108,10 +110,10 @@ def cost_against_n(toy=None, t_end=5.0, ns=(50, 100, 200, 400, 800, 1600, 3200),
         for n in ns if method.by_points else ():
             span = min(t_end, 5.0 / n**2)
             while True:
-                spent, (_, _, dt) = clock(partial(method.march, toy, n, span), seconds, 3)
+                spent, (_, _, dt) = clock(partial(method.march, toy, n, span), seconds, 1)
                 if spent > seconds / 2 or span >= t_end:
                     break
-                span = min(t_end, 2 * span)
+                span = min(t_end, 4 * span)
             points.append(Point(method.name, n, dt, math.nan, spent * t_end / span))
     return tuple(points)
 
@@ -119,7 +121,7 @@ def cost_against_n(toy=None, t_end=5.0, ns=(50, 100, 200, 400, 800, 1600, 3200),
 def clock(run, patience, repeats):
     """(median seconds, outcome) of ``repeats`` calls of run(), or fewer, after one that does not count."""
     times = []
-    while len(times) <= repeats:
+    while len(times) <= repeats or sum(times[1:]) < _AT_LEAST:
         start = time.perf_counter()
         outcome = run()
         times.append(time.perf_counter() - start)

@@ -36,7 +36,7 @@ def draw_work_precision(ax, study):
     """Max-norm error at t_end over wall time, one line a method; points on the Pareto front are ringed."""
     artists = []
     for method in study.methods:
-        points = sorted((p for p in study.of(method) if np.isfinite(p.error)), key=lambda p: p.seconds)
+        points = [p for p in study.of(method) if np.isfinite(p.error)]
         artists += ax.loglog([p.seconds for p in points], [p.error for p in points], label=method, **_look(method))
     front = [p for p in study.points if p.on_front]
     artists += ax.loglog(
@@ -55,10 +55,13 @@ def draw_work_precision(ax, study):
 
 
 def draw_cost(ax, cost):
-    """Wall time to t_end over N, one line a method."""
+    """Wall time to t_end over N, one line a method, and the slope of explicit steps that diffusion limits."""
     artists = []
     for method in dict.fromkeys(p.method for p in cost):
         points = [p for p in cost if p.method == method]
         artists += ax.loglog([p.n for p in points], [p.seconds for p in points], label=method, **_look(method))
+    n = np.array(sorted({p.n for p in cost})[-3:])
+    artists += ax.loglog(n, min(p.seconds for p in cost if p.n == n[0]) / 4 * (n / n[0]) ** 3, color="0.5", lw=0.8)
+    ax.annotate("$N^3$", (n[1], artists[-1].get_ydata()[1]), xytext=(6, -10), textcoords="offset points", color="0.4")
     ax.set(xlabel="N", ylabel="wall time (s)")
     return artists
