@@ -12,12 +12,12 @@ _COLOURS = {
     "solve_ivp": "#777777",
     "py-pde": "#56B4E9",
 }
-_MARKERS = {
+_MARKERS = {  # RK45 before RK4: the first name that fits decides
     "FTCS": "s",
+    "RK45": "P",
     "RK4": "o",
     "RK8": "^",
     "reference": "*",
-    "RK45": "P",
     "LSODA": "X",
     "DOP853": "D",
     "py-pde": "v",

@@ -1,8 +1,8 @@
 """Measure error against wall time, and keep what was measured: ``python tests/benchmarks/work_precision.py``.
 
 Writes figures/work_precision.measured.json, from which the figure of that name is drawn, and the table between the two
-markers in README.md. ``--table`` only writes the table again from the stored measurements. It takes about two minutes,
-and one more where py-pde is installed (``pip install -e ".[bench]"``). The ratios are those of one machine at one time.
+markers in README.md. ``--table`` only writes the table again from the stored measurements. It takes four minutes,
+py-pde included where that is installed (``pip install -e ".[bench]"``). The ratios are of one machine at one time.
 """
 
 import argparse
