@@ -37,6 +37,10 @@ class Lines:
     x: np.ndarray = field(repr=False)
     final: tuple[np.ndarray, ...] = field(repr=False)
 
+    def __post_init__(self):
+        for array in (self.x, *self.final):
+            array.flags.writeable = False
+
     @property
     def blew_up(self):
         """Whether the march was given up, at 1e100 times the size of its initial data."""
@@ -63,6 +67,8 @@ def march_lines(problem, n, dt, t_end, space=CENTRAL, time=RK4):
     ------
     TypeError, ValueError    in one sentence, for an argument that is not allowed
     """
+    if not all(hasattr(problem, part) for part in ("initial", "forcing", "rhs")):
+        raise TypeError(f"problem must be a Toy, a BackwardHeat or an object with their methods, got {shown(problem)}")
     grid, dt, t_end = Grid(n), real("dt", dt, above=0), real("t_end", t_end, least=0)
     if not isinstance(time, RungeKutta):
         raise TypeError(f"time must be a RungeKutta step such as RK4 or RK8, got {shown(time)}")
@@ -72,12 +78,9 @@ def march_lines(problem, n, dt, t_end, space=CENTRAL, time=RK4):
         raise ValueError(f"dt must be more than t_end/2^53, got {dt!r} with t_end {t_end!r}")
     # A quotient that rounding leaves a little above a whole number is that number.
     steps = math.ceil(t_end / dt * (1 - 1e-12))
-    x = grid.x
-    states, _ = trace(problem, grid, space, time, np.array([t_end]), np.array([steps]))
-    final = states[0]
-    final.flags.writeable = x.flags.writeable = False
     step = t_end / steps if steps else dt
-    return Lines(problem, grid.n, step, t_end, space, time, x, tuple(final))
+    (final,), _ = trace(problem, grid.n, space, time, np.array([step]), np.array([steps]))
+    return Lines(problem, grid.n, step, t_end, space, time, grid.x, tuple(final))
 
 
 def stable_step(toy, n, space, time):
@@ -98,33 +101,29 @@ def _largest(n, *derivatives):
     return [float(np.abs(d.multiplier(xi, 2 * math.pi / n)).max()) for d in derivatives]
 
 
-def trace(problem, grid, space, time, t, counts):
-    """The states at the ascending times t, of shape (len(t), fields, n), reached by counts[m] steps from t[m-1] (or 0).
+def trace(problem, n, space, time, dt, counts):
+    """The states on n points after counts[0] steps of dt[0], then counts[1] of dt[1], and so on: (m, fields, n).
 
     Returns
     -------
-    (states, depth); states that a blow-up kept from being reached are NaN, and depth (len(t),) is the integral of
-    max(0, -min of the first field) over time up to t, infinite where not reached
+    (states, depth); states that a blow-up kept from being reached are NaN, and depth (m,) is the integral over time of
+    max(0, -min of the first field) up to there, infinite where not reached
     """
-    x, n = grid.x, grid.n
-    y = np.array(problem.initial(x))
-    dt = np.diff(t, prepend=0.0) / np.maximum(counts, 1)
-    limit = _BLOWN_UP * (1 + float(np.abs(y).max()))
-    states, depth = np.full((len(t), *y.shape), np.nan), np.full(len(t), np.inf)
+    start = _start if type(problem) is Toy else _start.__wrapped__  # other problems need not be hashable
+    x, y, forcing, limit = start(problem, n)
+    states, depth = np.full((len(dt), *y.shape), np.nan), np.full(len(dt), np.inf)
     loops = compiled("primer.schemes.lines_kernel") if type(problem) is Toy else None
-    tables = _tables(n, *(space[m] for m in (1, 2)))
+    tables = _tables(n, space[1], space[2])
     if loops is None or tables is None:
-        _interpreted(problem, grid, space, time, y, dt, counts, limit, states, depth)
+        _interpreted(problem, x, y, forcing, space, time, dt, counts, limit, states, depth)
     else:
-        counts = np.asarray(counts, dtype=np.int64)
-        loops.march(y, problem.forcing(x), problem.eps, *tables, *time.table, dt, counts, limit, states, depth)
+        loops.march(y.copy(), forcing, problem.eps, *tables, *time.table, dt, counts, limit, states, depth)
     return states, depth
 
 
-def _interpreted(problem, grid, space, time, y, dt, counts, limit, states, depth):
+def _interpreted(problem, x, y, forcing, space, time, dt, counts, limit, states, depth):
     """The same march in NumPy, for any problem."""
-    x, h = grid.x, grid.h
-    forcing, deep = problem.forcing(x), 0.0
+    h, deep = 2 * math.pi / x.size, 0.0
 
     def slope(y):
         return np.array(problem.rhs(x, y, lambda f, m: space[m](f, h), forcing))
@@ -138,6 +137,14 @@ def _interpreted(problem, grid, space, time, y, dt, counts, limit, states, depth
                 if not np.abs(y).max() <= limit:
                     return
             states[m], depth[m] = y, deep
+
+
+@lru_cache(maxsize=64)
+def _start(problem, n):
+    """(x, state at t = 0, forcing, size at which a march is given up)."""
+    x = Grid(n).x
+    y = np.array(problem.initial(x))
+    return x, y, problem.forcing(x), _BLOWN_UP * (1 + float(np.abs(y).max()))
 
 
 @lru_cache(maxsize=64)

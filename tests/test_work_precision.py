@@ -1,0 +1,118 @@
+"""Guards the work-precision study: all methods solve the same problem, the front is one, the table is the data's."""
+
+import importlib.util
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from primer import Toy
+from primer.study import measured
+from primer.study.contestants import Method, contestants
+from primer.study.work_precision import Point, WorkPrecision, cost_against_n, pareto, work_precision
+
+ROOT = Path(__file__).parents[1]
+STORE = ROOT / "figures" / "work_precision.measured.json"
+
+
+@pytest.fixture(scope="module")
+def study():
+    methods = [Method(m.name, m.march, m.knobs[:3], m.by_points) for m in contestants(with_py_pde=False)]
+    return work_precision(Toy(1.4, 0.02), 1.0, methods, repeats=1)
+
+
+def test_every_method_solves_the_problem_better_and_better(study):
+    assert len(study.methods) == 13
+    for method in study.methods:
+        points = study.of(method)
+        assert points[-1].error < 0.02, method
+        if "solve_ivp" not in method:  # which at so few steps is better than it was asked to be
+            assert points[-1].error <= points[0].error, method
+        assert all(p.seconds > 0 for p in points)
+    orders = {"central 2": 2, "central 4": 4, "central 6": 6}
+    for name, order in orders.items():
+        _, coarse, fine = study.of(f"{name} + RK8")
+        assert fine.n == 2 * coarse.n
+        assert math.log2(coarse.error / fine.error) == pytest.approx(order, abs=0.25)
+
+
+def test_the_front_is_what_nothing_beats():
+    data = [(1.0, 1.0), (2.0, 0.5), (3.0, 0.6), (2.0, 0.7), (0.5, math.inf), (4.0, 0.5), (1.0, 1.0)]
+    points = pareto([Point("m", 8, 0.1, error, seconds) for seconds, error in data])
+    assert [p.on_front for p in points] == [True, True, False, False, False, False, True]
+    assert [(p.seconds, p.error) for p in points] == data
+    study = WorkPrecision(Toy(1.5), 1.0, points)
+    assert study.quickest("m", 0.6).seconds == 2.0
+    assert study.quickest("m", 0.1) is None
+
+
+def test_cost_is_scaled_to_the_whole_march():
+    methods = [m for m in contestants(with_py_pde=False) if m.name in ("FTCS", "central 4 + RK4", "reference")]
+    cost = cost_against_n(t_end=2.0, ns=(50, 200), methods=methods, seconds=0.01)
+    assert [(p.method, p.n) for p in cost] == [(m.name, n) for m in methods[:2] for n in (50, 200)]
+    assert cost[1].seconds > 4 * cost[0].seconds  # 4 times the points, at least as many steps
+    assert all(math.isnan(p.error) for p in cost)
+
+
+def test_a_blow_up_is_an_infinite_error():
+    def blown_up(toy, knob, t_end):
+        return np.zeros(knob), np.full((2, knob), np.nan), 0.1
+
+    study = work_precision(Toy(1.5), 1.0, [Method("bad", blown_up, (8, 16))], repeats=1)
+    assert [p.error for p in study.points] == [math.inf, math.inf]
+    assert not any(p.on_front for p in study.points)
+
+
+def test_a_method_that_takes_long_is_taken_no_further():
+    calls = []
+
+    def slow(toy, knob, t_end):
+        calls.append(knob)
+        np.linalg.svd(np.ones((300, 300)))
+        return np.zeros(knob), np.zeros((2, knob)), 0.1
+
+    work_precision(Toy(1.5), 1.0, [Method("slow", slow, (8, 16, 32))], patience=1e-6)
+    assert set(calls) == {8}
+
+
+def test_measurements_survive_the_file(study, tmp_path):
+    cost = (Point("FTCS", 50, 0.1, math.nan, 1.0),)
+    measured.write(tmp_path / "m.json", study, cost)
+    again, cost_again = measured.read(tmp_path / "m.json")
+    assert again.toy == study.toy
+    assert again.methods == study.methods
+    for p, q in zip(again.points, study.points, strict=True):
+        assert (p.method, p.n) == (q.method, q.n)
+        assert p.seconds == pytest.approx(q.seconds, rel=1e-3)
+        assert p.error == pytest.approx(q.error, rel=1e-3)
+    assert math.isnan(cost_again[0].error)
+    assert cost_again[0].seconds == 1.0
+
+
+@pytest.fixture(scope="module")
+def script():
+    spec = importlib.util.spec_from_file_location("benchmark", ROOT / "tests" / "benchmarks" / "work_precision.py")
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+def test_the_readme_has_the_table_of_what_was_measured(script):
+    text = (ROOT / "README.md").read_text(encoding="utf-8")
+    block = text.split(script.BEGIN)[1].split(script.END)[0]
+    assert block.strip() == script.table(measured.read(STORE)[0])
+
+
+def test_the_table_is_written_between_the_markers_only(script, tmp_path):
+    readme = tmp_path / "README.md"
+    readme.write_text(f"before\n{script.BEGIN}\nold\n{script.END}\nafter\n", encoding="utf-8")
+    script.write_table(readme)
+    text = readme.read_text(encoding="utf-8")
+    assert text.startswith(f"before\n{script.BEGIN}\n")
+    assert text.endswith(f"\n{script.END}\nafter\n")
+    assert "| FTCS |" in text
+    assert "old" not in text
+    readme.write_text("no markers", encoding="utf-8")
+    with pytest.raises(SystemExit, match="must have the lines"):
+        script.write_table(readme)
