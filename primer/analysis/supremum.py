@@ -31,6 +31,9 @@ def supremum(symbol, law, real):
         n, m = np.unravel_index(place, rate.shape)
         if found == PLACES or rate[n, m] == -np.inf:
             break
+        if rate[n, m] == 0:  # purely imaginary
+            values.append((0.0, 10.0 ** s[n]))
+            continue
         # A multiple imaginary eigenvalue may pass for growth in double precision: ask with more digits.
         exact = _exact(symbol, _wavevector(symbol.dim, s[n], angle[m]))
         values.append((exact, 10.0 ** s[n]))
