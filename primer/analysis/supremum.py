@@ -22,8 +22,10 @@ def supremum(symbol, law, real):
     s = np.linspace(-reach, reach, 50 * reach + 1 if symbol.dim == 1 else 10 * reach + 1)
     angle = (np.pi if real else 2 * np.pi) * np.arange(angles) / angles
     rate = _rates(pencil, s[:, None], angle)
-    values = [(_exact(symbol, np.zeros(symbol.dim)), 0.0)]
-    values += [(_exact(symbol, _wavevector(symbol.dim, -15.0, a)), 0.0) for a in angle[::15]]  # xi = 0 may leave gaps
+    values = [(exact_growth(symbol, np.zeros(symbol.dim)), 0.0)]
+    values += [
+        (exact_growth(symbol, _wavevector(symbol.dim, -15.0, a)), 0.0) for a in angle[::15]
+    ]  # xi = 0 may leave gaps
     if law.exponent <= 0:
         values.append((law.coefficient if law.exponent == 0 else 0.0, np.inf))
     found = 0
@@ -31,8 +33,11 @@ def supremum(symbol, law, real):
         n, m = np.unravel_index(place, rate.shape)
         if found == PLACES or rate[n, m] == -np.inf:
             break
+        if rate[n, m] == 0:  # purely imaginary
+            values.append((0.0, 10.0 ** s[n]))
+            continue
         # A multiple imaginary eigenvalue may pass for growth in double precision: ask with more digits.
-        exact = _exact(symbol, _wavevector(symbol.dim, s[n], angle[m]))
+        exact = exact_growth(symbol, _wavevector(symbol.dim, s[n], angle[m]))
         values.append((exact, 10.0 ** s[n]))
         if abs(exact - rate[n, m]) <= 1e-3 * abs(exact):
             best = _followed(pencil, s[n], angle[m], s[1] - s[0], np.pi / angles)
@@ -86,7 +91,7 @@ def _poles(symbol, real):
         for z, _ in roots([leading.get(a, mp.mpc(0)) for a in range(max(leading) + 1)], symbol.zero):
             if abs(z.imag) <= mp.sqrt(symbol.zero) * abs(z) and z.real != 0:
                 for side in (1, -1):
-                    near, nearer = (_exact(symbol, z.real * (1 + side * mp.mpf(10) ** -n)) for n in (9, 12))
+                    near, nearer = (exact_growth(symbol, z.real * (1 + side * mp.mpf(10) ** -n)) for n in (9, 12))
                     found.append((np.inf if nearer > 2 * max(near, 0) else nearer, abs(float(z.real))))
     return found
 
@@ -95,15 +100,15 @@ def _sharpened(symbol, s, angle):
     """The growth at the top of the parabola through three places about a maximum in s, and |xi| there."""
     values = []
     for h in (1e-4, 1e-7):
-        low, mid, high = (_exact(symbol, _wavevector(symbol.dim, s + step, angle)) for step in (-h, 0, h))
+        low, mid, high = (exact_growth(symbol, _wavevector(symbol.dim, s + step, angle)) for step in (-h, 0, h))
         values.append((mid, 10.0**s))
         bend = low - 2 * mid + high
         if bend < 0:
             s += np.clip(0.5 * (low - high) / bend, -1, 1) * h
-    return [*values, (_exact(symbol, _wavevector(symbol.dim, s, angle)), 10.0**s)]
+    return [*values, (exact_growth(symbol, _wavevector(symbol.dim, s, angle)), 10.0**s)]
 
 
-def _exact(symbol, xi):
+def exact_growth(symbol, xi):
     """max Re lambda at one wavevector from the roots of det M, with many digits; -inf if det M vanishes."""
     with mp.workdps(PRECISE):
         xi = [mp.mpf(x) for x in np.atleast_1d(xi)] + [mp.mpf(1)]

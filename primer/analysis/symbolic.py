@@ -90,9 +90,10 @@ def linearise(text, *, at=None, order="full", **parameters):
 
     Returns
     -------
-    sympy.Matrix    A, with lambda q = A q, if the equations can be solved for the first time derivatives; otherwise
-                    (with constraints, or a second time derivative) M, with M q = 0, whose entries contain lambda. The
-                    unknowns q are in the order in which they occur, those with a time derivative first.
+    sympy.Matrix    A, with lambda q = A q, where the equations give the first time derivatives (or, up to three, can be
+                    solved for them); otherwise, as with constraints or a second time derivative, M, with M q = 0,
+                    whose entries contain lambda. The unknowns q are in the order in which they occur, those with a time
+                    derivative first.
     """
     system, values = _read(text, at, order, parameters)
     lam, *xi = sp.symbols("lambda xi") if system.dim == 1 else sp.symbols("lambda xi_1 xi_2")
@@ -109,7 +110,7 @@ def linearise(text, *, at=None, order="full", **parameters):
                 entry = parts.setdefault(n, sp.zeros(size))
                 entry[r, system.unknowns.index(name)] += coefficient * wave
     S, E = (parts.get(n, sp.zeros(size)) for n in (0, 1))
-    if max(parts) == 1 and E.det() != 0:
+    if max(parts, default=0) == 1 and (sp.eye(size) == E or (size <= 3 and E.det() != 0)):
         return -S if sp.eye(size) == E else (E.inv() * -S).applyfunc(_tidied)
     return sum((lam**n * part for n, part in parts.items()), sp.zeros(size))
 

@@ -18,12 +18,12 @@ import re
 from dataclasses import dataclass
 
 FUNCTIONS = ("sin", "cos", "tan", "exp", "log", "sqrt", "sinh", "cosh", "tanh", "abs")
-LENGTH, TOKENS, DEPTH, EQUATIONS = 4000, 600, 80, 8  # far beyond what a person would write by hand
+LENGTH, TOKENS, DEPTH, EQUATIONS, NAME = 4000, 600, 80, 6, 40  # far beyond what a person would write by hand
 
 _TOKEN = re.compile(
     r"""[ \t\r]*(?:
     (?P<number>(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)(?P<imaginary>[ij](?!\w))?
-  | (?P<name>[^\W\d_][^\W_]*(?:_[^\W_]+)*)(?!\w)
+  | (?P<name>[^\W\d_]\w*)
   | (?P<subscript>_[xyt]+(?!\w))
   | (?P<operator>\*\*|[-+*/^=();\n]))""",
     re.VERBOSE,
@@ -87,6 +87,13 @@ def _tokens(text):
         kind, value = match.lastgroup, match[match.lastgroup]
         if kind == "imaginary":
             kind, value = "number", match["number"]
+        if kind == "name" and not value.isidentifier():
+            odd = next(n for n in range(1, len(value) + 1) if not value[:n].isidentifier())
+            raise PDEError(f"unexpected character {value[odd - 1]!r}", text, match.start("name") + odd - 1)
+        if kind == "name" and ("__" in value or value.endswith("_")):
+            raise PDEError("a name with two underscores together, or with one at its end", text, match.start("name"))
+        if kind == "name" and len(value) > NAME:
+            raise PDEError(f"a name longer than the {NAME} characters allowed", text, match.start("name"))
         start, place, count = match.start("number" if kind == "number" else kind), match.end(), count + 1
         depth += (value == "(") - (value == ")")
         if count > TOKENS:

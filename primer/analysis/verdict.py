@@ -11,7 +11,7 @@ from primer.analysis.directions import max_growth
 from primer.analysis.drift import worst_law
 from primer.analysis.laws import NotPolynomialError, exact_symbol
 from primer.analysis.puiseux import branches
-from primer.analysis.supremum import supremum
+from primer.analysis.supremum import exact_growth, supremum
 
 
 class Kind(StrEnum):
@@ -116,8 +116,7 @@ def _in_plane(symbol, real):
     pencil, k = symbol.pencil(), np.array([1e5, 1e7])
     best = max_growth(pencil, k)
     worst = worst_law(symbol.determinant, symbol.zero, real, best.angle)
-    lam = pencil.eigenvalues(k * best.direction)[..., 0]
-    seen = np.where(best.growth > 1e-9 * np.abs(lam), best.growth, 0)
+    seen = [max(exact_growth(symbol, xi), 0.0) for xi in (k * best.direction).T]  # without rounding errors
     law = worst.law
     allowed = 2 * seen[0] if law.is_bounded else 1.2 * law.coefficient * k[1] ** float(law.exponent)
     doubt = ""

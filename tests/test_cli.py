@@ -1,0 +1,86 @@
+"""Guards the command line: what it prints, its JSON, and that bad input ends with a sentence and exit code 2."""
+
+import json
+import subprocess
+import sys
+
+import pytest
+
+import primer
+from primer.__main__ import main
+
+TOY = "u_t = v_x; v_t = eps*u*v_xx + u_x - v - sin(x)"
+
+
+def run(capsys, *arguments):
+    code = main(list(arguments))
+    return code, *capsys.readouterr()
+
+
+def test_readable(capsys):
+    code, out, err = run(capsys, "verdict", "u_t = u_xxx - u_xx")
+    assert (code, err) == (0, "")
+    assert out.splitlines()[0].split() == ["verdict:", "ill-posed"]
+    assert "Re lambda ~ 1 |xi|^2" in out
+    code, out, _ = run(capsys, "verdict", "u_t = -u_xx - u_xxxx")
+    assert "well-posed, unstable" in out
+    assert "Re lambda <= 0.25" in out
+    code, out, _ = run(capsys, "verdict", "u_t = v; v_t = u_x")
+    assert "|xi|^(1/2)" in out
+    code, out, _ = run(capsys, "verdict", "u_t = u_xx - u_yy")
+    assert "(0, 1)" in out
+
+
+def test_json(capsys):
+    code, out, _ = run(capsys, "verdict", TOY, "--at", "u=-0.5", "v_xx=0.3", "--set", "eps=1e-2", "--json")
+    found = json.loads(out)
+    assert code == 0
+    assert (found["kind"], found["exponent"], found["coefficient"]) == ("ill-posed", 2, pytest.approx(0.005))
+    assert found["bound"] is None
+    assert found["unstable"] is True
+    _, out, _ = run(capsys, "verdict", "u_t + u_xxt = u_xx", "--json")
+    assert json.loads(out)["exponent"] is None  # undecided
+
+
+def test_order(capsys):
+    _, out, _ = run(capsys, "verdict", "u_t = u_xxx - u_xx", "--order", "maximal", "--json")
+    assert json.loads(out)["kind"] == "well-posed"
+
+
+@pytest.mark.parametrize(
+    ("arguments", "sentence"),
+    [
+        (["u_t = foo(u)"], "'foo' is not a known function"),
+        (["u_t = (u"], "expected ')'"),
+        (["u_t = a*u_xx"], "not given: parameters a=..."),
+        (["u_t = u_xx", "--at", "w=3"], "'w' has a value"),
+        (["u_t = u_xx", "--at", "u=nan"], "u must be a finite number"),
+        ([""], "no equation"),
+    ],
+)
+def test_bad_input_ends_with_exit_2(capsys, arguments, sentence):
+    code, out, err = run(capsys, "verdict", *arguments)
+    assert (code, out) == (2, "")
+    assert sentence in err
+    assert "Traceback" not in err
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [[], ["nonsense"], ["verdict"], ["verdict", "u_t = u", "--at", "u"], ["verdict", "u_t = u", "--order", "half"]],
+)
+def test_bad_calls_end_with_exit_2(capsys, arguments):
+    with pytest.raises(SystemExit) as stopped:
+        main(arguments)
+    assert stopped.value.code == 2
+    assert "Traceback" not in capsys.readouterr().err
+
+
+def test_as_a_module():
+    command = [sys.executable, "-W", "error", "-m", "primer"]
+    found = subprocess.run([*command, "verdict", "-"], input="u_t = -u_xx\n", capture_output=True, text=True)
+    assert found.returncode == 0, found.stderr
+    assert "ill-posed" in found.stdout
+    assert subprocess.run([*command, "--version"], capture_output=True, text=True).stdout == (
+        f"primer {primer.__version__}\n"
+    )

@@ -1,0 +1,279 @@
+"""Guards equations as text: the parser and its errors, the linearised symbol, its numbers, and its discrete form.
+
+Second routes: sympy expressions by hand, the problems' own symbols, and the Fourier transform of a finite-difference
+Jacobian of the right-hand side.
+"""
+
+import time
+from fractions import Fraction
+
+import numpy as np
+import pytest
+import sympy as sp
+
+from primer import BackwardHeat, Toy, growth_rates, linearise, verdict
+from primer.analysis.symbolic import pencil
+from primer.analysis.text import PDEError, parse
+from primer.schemes.grid import Grid
+
+TOY = "u_t = v_x; v_t = eps*u*v_xx + u_x - v - sin(x)"
+AT = {"u": -0.5, "v_xx": 0.3}
+xi, xi_1, xi_2, lam = sp.symbols("xi xi_1 xi_2 lambda")
+u, v_xx, eps = sp.symbols("u v_xx eps")
+
+
+def test_the_papers_matrix():
+    """Eq. (toy-mat), and that of the maximal-order equations (toy-pde-lin)."""
+    expected = sp.Matrix([[0, sp.I * xi], [sp.I * xi + eps * v_xx, -eps * u * xi**2 - 1]])
+    assert (linearise(TOY) - expected).applyfunc(sp.simplify).is_zero_matrix
+    maximal = sp.Matrix([[0, sp.I * xi], [sp.I * xi, -eps * u * xi**2]])
+    assert (linearise(TOY, order="maximal") - maximal).applyfunc(sp.simplify).is_zero_matrix
+    numbers = linearise(TOY, at=AT, eps=0.01)
+    values = {u: sp.Rational(-1, 2), v_xx: sp.Rational(3, 10), eps: sp.Rational(1, 100)}
+    assert (numbers - expected.subs(values)).applyfunc(sp.simplify).is_zero_matrix
+    assert r"\xi" in sp.latex(linearise(TOY))
+
+
+def test_constraints_and_second_time_derivatives_stay_a_pencil():
+    flow = linearise("u_t + p_x = nu*(u_xx + u_yy); v_t + p_y = nu*(v_xx + v_yy); u_x + v_y = 0")
+    nu = sp.Symbol("nu")
+    diagonal = lam + nu * (xi_1**2 + xi_2**2)
+    expected = sp.Matrix(
+        [[diagonal, 0, sp.I * xi_1], [0, diagonal, sp.I * xi_2], [sp.I * xi_1, sp.I * xi_2, 0]]
+    )  # unknowns u, v, p
+    assert (flow - expected).applyfunc(sp.expand).is_zero_matrix
+    assert linearise("u_tt = -u_xxxx") == sp.Matrix([[lam**2 + xi**4]])
+    assert sp.simplify(linearise("u_t - u_xxt = u_xx")[0] + xi**2 / (1 + xi**2)) == 0
+
+
+def test_conservation_form_is_the_same_system():
+    h, g = sp.symbols("h g")
+    matrix = linearise("h_t + (h*u)_x = 0; (h*u)_t + (h*u^2 + g*h^2/2)_x = 0").subs(
+        {sp.Symbol(f"{name}_{letter}"): 0 for name in "hu" for letter in "xt"}
+    )
+    expected = sp.Matrix([[-sp.I * u * xi, -sp.I * h * xi], [-sp.I * g * xi, -sp.I * u * xi]])
+    assert (matrix - expected).applyfunc(sp.simplify).is_zero_matrix
+
+
+@pytest.mark.parametrize(
+    ("text", "symbol"),
+    [
+        ("u_t = u_xx", -(xi**2)),
+        ("u_t = 2*-u_xx/4", xi**2 / 2),
+        ("u_t = -2^2*u_x^1", -4 * sp.I * xi),
+        ("u_t = 2**-1*u_x", sp.I * xi / 2),
+        ("u_t = 2^3^0*u_x", 2 * sp.I * xi),
+        ("3*u_t - u_xx = 0", -(xi**2) / 3),
+        ("0 = u_t - u_xx", -(xi**2)),
+        ("u_t\n= u_xx\n + u_xxx", -(xi**2) - sp.I * xi**3),
+        ("u_t = (u_x)_x", -(xi**2)),
+        ("u_t = (x*u)_x", sp.Symbol("x") * sp.I * xi + 1),
+        ("u_t = 2i*u_x + 1.5e1j*u", -2 * xi + 15 * sp.I),
+        ("u_t = sqrt(4)*pi*u", 2 * sp.pi),
+        ("u_t = sin(0*u)*u_x + cos(0)*u", 1 + 0 * xi),
+        ("u_t = exp(u_x)_x", sp.exp(sp.Symbol("u_x")) * (-(xi**2) + sp.I * xi * sp.Symbol("u_xx"))),
+        ("\n\n u_t=u ;; \n", sp.Integer(1)),
+        ("ε_t = ε_x", sp.I * xi),
+        ("phi_1_t = −phi_1_xx", xi**2),  # noqa: RUF001
+    ],
+)
+def test_grammar(text, symbol):
+    assert sp.simplify(linearise(text)[0] - symbol) == 0
+
+
+def test_mixed_derivatives_are_one():
+    assert linearise("u_t = u_xy + u_yx") == sp.Matrix([[-2 * xi_1 * xi_2]])
+    assert growth_rates("u_t = u_xxy + u_y", [2.0, 3.0]) == pytest.approx(-12j + 3j)
+
+
+@pytest.mark.parametrize("v_xx", [0.0, 0.3])
+@pytest.mark.parametrize("u", [1.5, 0.0, -0.5])
+def test_numbers_agree_with_the_problems_symbol(u, v_xx):
+    k = np.array([[0.0, 1.0, 7.0], [-3.0, 50.0, 1e3]])
+    rates = growth_rates(TOY, k, at={"u": u, "v_xx": v_xx}, eps=0.01)
+    assert rates.shape == (2, 3, 2)
+    assert (np.diff(rates.real, axis=-1) <= 0).all()
+    expected = np.linalg.eigvals(Toy(0.5, 0.01).symbol(k, u, v_xx))
+    for computed, known in zip(rates.reshape(-1, 2), expected.reshape(-1, 2), strict=True):
+        for value in known:
+            assert abs(computed - value).min() < 1e-10 * (1 + abs(known).max())
+
+
+@pytest.mark.parametrize("n", [30, 31])
+def test_symbol_is_the_fourier_transform_of_a_finite_difference_jacobian(n):
+    """Toy and backward heat, linearised about a uniform state: a column of the Jacobian, transformed."""
+    grid, delta = Grid(n), 1e-6
+    # 2 sin x enters as a forcing only; about a uniform state u*, v* = 0 the Jacobian is a convolution.
+    for problem, base, text, at in (
+        (Toy(0.7, 0.05), (0.7, 0.0), TOY, {"u": 0.7, "v_xx": 0.0}),
+        (BackwardHeat(), (0.7,), "u_t = -u_xx", {}),
+    ):
+        parameters = {"eps": 0.05} if at else {}
+        fields = len(base)
+        k = np.fft.fftfreq(n, 1 / n)
+        transformed = np.empty((n, fields, fields), dtype=complex)
+        for c in range(fields):
+            columns = []
+            for sign in (1, -1):
+                state = [np.full(n, value) for value in base]
+                state[c][0] += sign * delta
+                columns.append(np.array(problem.rhs(grid.x, tuple(state), grid.derivative)))
+            transformed[:, :, c] = np.fft.fft((columns[0] - columns[1]) / (2 * delta), axis=-1).T
+        system = pencil(text, at=at, multiplier=grid.multiplier, **parameters)
+        S, E = system.matrices(k)
+        np.testing.assert_allclose(E, np.broadcast_to(np.eye(fields), E.shape))
+        np.testing.assert_allclose(-S, transformed, atol=1e-7 * np.abs(S).max())
+
+
+def test_discrete_growth_is_that_of_the_problems_discrete_symbol():
+    grid = Grid(30)
+    k = np.arange(16.0)
+    rates = growth_rates(TOY, k, at=AT, eps=0.01, multiplier=grid.multiplier)
+    expected = np.linalg.eigvals(Toy(0.5, 0.01).symbol(k, -0.5, 0.3, grid.multiplier))
+    np.testing.assert_allclose(rates[:, 0].real, expected.real.max(axis=1), atol=1e-12)
+    with pytest.raises(PDEError, match="derivative of order 5"):
+        growth_rates("u_t = u_xxxxx", k, multiplier=lambda xi, m: {1: xi, 2: xi}[m])
+    with pytest.raises(TypeError, match="multiplier must be a function"):
+        growth_rates("u_t = u_xx", k, multiplier=3)
+
+
+def test_what_is_not_given_is_listed_at_once():
+    with pytest.raises(PDEError, match=r"base-state values u, v_xx .* and parameters eps="):
+        growth_rates(TOY, 1.0)
+    with pytest.raises(PDEError, match="v_xx"):
+        verdict(TOY, at={"u": 1}, eps=0.01)
+    assert verdict(TOY, at={"u": 1}, eps=0.01, order="maximal").kind == "well-posed"  # v_xx is not asked for
+    assert verdict("u_t = u_xx + f + x^2*sin(t)").kind == "well-posed"  # nor are f, x and t
+    with pytest.raises(PDEError, match="base-state values x"):
+        growth_rates("u_t = x*u_x", 1.0)
+    assert growth_rates("u_t = x*u_x", 1.0, at={"x": 3}) == pytest.approx(3j)
+    assert growth_rates("u_t = a*u", 1.0, at={"a": 3}) == 3  # a parameter among the base values
+
+
+@pytest.mark.parametrize("value", [2, 2.0, np.float32(2), np.int64(2), Fraction(2), sp.Integer(2), 2 + 0j, sp.sqrt(4)])
+def test_values_of_every_kind(value):
+    assert growth_rates("u_t = u*u_xx", 3.0, at={"u": value, "u_xx": 0}) == pytest.approx(-18)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "error", "word"),
+    [
+        ({"at": {"w": 1}}, PDEError, "'w' has a value but does not occur"),
+        ({"at": {"u": 1}, "nu": 1}, PDEError, "'nu' has a value but does not occur"),
+        ({"u": 1}, PDEError, "u is an unknown or its derivative: give"),
+        ({"at": {"u": "1"}}, TypeError, "u must be a number"),
+        ({"at": {"u": True}}, TypeError, "u must be a number"),
+        ({"at": {"u": float("nan")}}, ValueError, "u must be a finite number, got nan"),
+        ({"at": {"u": np.inf}}, ValueError, "u must be a finite number"),
+        ({"at": {"u": sp.Symbol("z")}}, ValueError, "u must be a finite number"),
+        ({"at": [1]}, TypeError, "at must be a dict"),
+        ({"at": {"u_xy": 1, "u_yx": 2}}, PDEError, "u_xy has two values"),
+        ({"at": {1: 2}}, PDEError, "1 has a value"),
+        ({"at": {"u": 1}, "order": "half"}, ValueError, "order must be 'full' or 'maximal'"),
+    ],
+)
+def test_bad_values_are_named(arguments, error, word):
+    with pytest.raises(error, match=word):
+        verdict("u_t = u*u_xx", **arguments)
+
+
+@pytest.mark.parametrize(
+    ("text", "at"), [("u_t = u_xx/u", {"u": 0}), ("u_t = log(u)*u_x", {"u": 0}), ("u_t = u^-1", {"u": 0})]
+)
+def test_a_base_state_where_the_equations_cannot_be_linearised(text, at):
+    with pytest.raises(PDEError, match=r"divide by zero|not a number"):
+        growth_rates(text, 1.0, at={**at, "u_x": 1, "u_xx": 1})
+
+
+@pytest.mark.parametrize(
+    ("text", "problem", "column"),
+    [
+        ("u_t = u_xx +", r"expected a number, a name or '\('", 12),
+        ("u_t = 2u", "expected an operator", 7),
+        ("u_t = u v", "expected an operator", 8),
+        ("u_t", "expected '='", 3),
+        ("u_t = u = 3", "an equation has one '='", 8),
+        ("u_t = (u", r"expected '\)' to close this bracket", 6),
+        ("u_t = u)", r"unexpected '\)'", 7),
+        ("u_t = foo(u)", "'foo' is not a known function", 6),
+        ("u_t = 3(u)", "expected an operator", 7),
+        ("u_t = u @ 2", "unexpected character '@'", 8),
+        ("u_t = u.real", r"unexpected character '\.'", 7),
+        ("u_t = __class__", "unexpected character '_'", 6),
+        ("u_t = u__x", "two underscores", 6),
+        ("u_t = u_ + v", "one at its end", 6),
+        ("u_t = u²", "unexpected character '²'", 7),
+        ("u_t = 1/0", "division by zero", 7),
+        ("u_t = 1/(u - u)", "division by zero", 7),
+        ("u_t = 0^-1", "division by zero", 7),
+        ("u_t = log(0)*u", "not finite", 6),
+        ("u_t = 9^9^9", "too large", 7),
+        ("u_t = x_x", "independent variable", 6),
+        ("u_t = u_xxxxxxxxxxxxx", "a derivative of order 13", 6),
+        ("u_t = 1e999*u", "larger exponent", 6),
+        ("u_t = u_xx; v_t = ", "expected a number", 18),
+        ("u_t = u_xx\nv_t = 2v", "expected an operator", 7),
+    ],
+)
+def test_errors_show_the_place(text, problem, column):
+    with pytest.raises(PDEError, match=problem) as caught:
+        linearise(text)
+    *_, line, caret = str(caught.value).split("\n")
+    assert line.strip() in text
+    assert caret.index("^") - 4 == column
+    assert isinstance(caught.value, ValueError)
+
+
+def test_a_long_line_is_shown_in_part():
+    with pytest.raises(PDEError) as caught:
+        parse("u_t = " + "u + " * 140 + "?")
+    *_, line, caret = str(caught.value).split("\n")
+    assert len(line) <= 84
+    assert line[caret.index("^")] == "?"
+
+
+HOSTILE = {
+    "long": "u_t = " + "+".join(["u_x"] * 30000),
+    "long but allowed": "u_t = " + "+".join(["u_x*v"] * 140) + "; v_t = v",
+    "brackets": "u_t = " + "(" * 3000 + "u" + ")" * 3000,
+    "open brackets": "(" * 500,
+    "signs": "u_t = " + "-" * 500 + "u",
+    "dunder": "u_t = ().__class__.__bases__[0].__subclasses__()",
+    "import": "__import__('os').system('true')",
+    "eval": "u_t = eval(u)",
+    "lambda": "lambda: 0",
+    "tower": "u_t = 9^9^9^9^9*u",
+    "powers": "u_t = (((((u^99)^99)^99)^99)^99)^99",
+    "products": "u_t = " + "*".join(["u^100"] * 100),
+    "number": "u_t = " + "9" * 3000 + "*u",
+    "exponentials": "u_t = exp(exp(exp(exp(100))))*u",
+    "sines": "u_t = " + "sin(" * 200 + "u" + ")" * 200,
+    "derivative of sines": "u_t = (" + "sin(" * 20 + "u" + ")" * 20 + ")_xxxxxxxx",
+    "derivatives": "u_t = " + "(" * 20 + "u" + ")_x" * 20,
+    "semicolons": ";" * 4000,
+    "equals": "=" * 4000,
+    "lines": "\n" * 4000,
+    "names": ";".join(f"a{n}_t = a{n}" for n in range(300)),
+    "name": "u_t = " + "a" * 3000 + "*u",
+    "null": "u_t = \0u",
+    "empty": "",
+    "blank": "  \n ",
+}
+
+
+@pytest.mark.parametrize("name", HOSTILE)
+@pytest.mark.parametrize("ask", [verdict, linearise])
+def test_hostile_text_ends_within_a_second(ask, name):
+    start = time.perf_counter()
+    if ask is linearise and name in ("long but allowed", "exponentials"):
+        linearise(HOSTILE[name])  # no number is computed: these are matrices like any other
+    else:
+        with pytest.raises(PDEError):
+            ask(HOSTILE[name])
+    assert time.perf_counter() - start < 1
+
+
+@pytest.mark.parametrize("text", [None, 3, b"u_t = u", ["u_t = u"]])
+def test_text_must_be_a_string(text):
+    with pytest.raises(TypeError, match="string"):
+        linearise(text)

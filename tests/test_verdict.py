@@ -1,0 +1,216 @@
+"""Guards the verdicts: kind, exponent and coefficient of every class of system against closed forms, and their bounds.
+
+Second routes: the growth of the same text's pencil, computed in double precision over many wavenumbers.
+"""
+
+import math
+import time
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from test_pencil import critical_state, granular, navier_stokes
+
+from primer import Pencil, Verdict, growth_rates, max_growth, verdict
+from primer.analysis.text import PDEError
+
+ILL, WELL = "ill-posed", "well-posed"
+TOY = "u_t = v_x; v_t = eps*u*v_xx + u_x - v - sin(x)"
+FLOW = "u_t + U*u_x + p_x = nu*(u_xx + u_yy); v_t + U*v_x + p_y = nu*(v_xx + v_yy); u_x + v_y = 0"
+SHALLOW = "h_t + (h*u)_x = 0; u_t + u*u_x + g*h_x = 0"
+REST = {"h_x": 0, "u_x": 0}
+TURING = "u_t = a*u - b*v + u_xx; v_t = c*u - d*v + D*v_xx"
+CAHN_HILLIARD = "u_t = (u^3 - u - g*u_xx)_xx"
+
+# (text, at, parameters, kind, exponent, coefficient, bound)
+CASES = {
+    "heat": ("u_t = u_xx", {}, {}, WELL, 2, -1, 0),
+    "backward heat": ("u_t = -u_xx", {}, {}, ILL, 2, 1, math.inf),
+    "wave": ("u_tt = c^2*u_xx", {}, {"c": 3}, WELL, 0, 0, 0),
+    "wave, first order": ("u_t = v_x; v_t = u_x", {}, {}, WELL, 0, 0, 0),
+    "Laplace": ("u_t = v; v_t = -u_xx", {}, {}, ILL, 1, 1, math.inf),
+    "Laplace, second order": ("u_tt = -u_xx", {}, {}, ILL, 1, 1, math.inf),
+    "Cauchy-Riemann": ("u_t = v_x; v_t = -u_x", {}, {}, ILL, 1, 1, math.inf),
+    "KdV": ("u_t + 6*u*u_x + u_xxx = 0", {"u": 2, "u_x": 0}, {}, WELL, 0, 0, 0),
+    "KdV on a slope": ("u_t + 6*u*u_x + u_xxx = 0", {"u": 2, "u_x": -0.5}, {}, WELL, 0, 3, 3),
+    "lower order decides": ("u_t = u_xxx - u_xx", {}, {}, ILL, 2, 1, math.inf),
+    "Kuramoto-Sivashinsky": ("u_t = -u*u_x - u_xx - u_xxxx", {"u": 1, "u_x": 0}, {}, WELL, 4, -1, 0.25),
+    "Cahn-Hilliard, spinodal": (
+        CAHN_HILLIARD, {"u": 0.2, "u_x": 0, "u_xx": 0}, {"g": 0.01}, WELL, 4, -0.01, 0.88**2 / 0.04,
+    ),
+    "Cahn-Hilliard, stable": (CAHN_HILLIARD, {"u": 0.9, "u_x": 0, "u_xx": 0}, {"g": 0.01}, WELL, 4, -0.01, 0),
+    "toy, u > 0": (TOY, {"u": 1.5, "v_xx": 0.3}, {"eps": 0.01}, WELL, 0, -1 / 0.015, 0),
+    "toy, u < 0": (TOY, {"u": -0.5, "v_xx": 0.3}, {"eps": 0.01}, ILL, 2, 0.005, math.inf),
+    "toy, u = 0": (TOY, {"u": 0, "v_xx": 0.3}, {"eps": 0.01}, WELL, 0, -0.5 + 0.0015, 0),
+    "toy, u = 0, much curvature": (TOY, {"u": 0, "v_xx": -300}, {"eps": 0.01}, WELL, 0, 1, 1),
+    "shallow water": (SHALLOW, {"h": 2, "u": 0.3, **REST}, {"g": 9.81}, WELL, 0, 0, 0),
+    "shallow water, heavy above": (SHALLOW, {"h": 2, "u": 0.3, **REST}, {"g": -9}, ILL, 1, 18**0.5, math.inf),
+    "Turing": (TURING, {}, {"a": 1, "b": 2, "c": 2, "d": 3, "D": 30}, WELL, 2, -1, None),
+    "beam": ("u_tt = -u_xxxx", {}, {}, WELL, 0, 0, 0),
+    "beam of negative stiffness": ("u_tt = u_xxxx", {}, {}, ILL, 2, 1, math.inf),
+    "damped beam": ("u_tt = -u_xxxx - 2*u_t", {}, {}, WELL, 0, -1, 0),
+    "multiple roots": ("u_t = u_xx + v; v_t = v_xx", {}, {}, WELL, 2, -1, 0),
+    "split multiple roots": ("u_t = v_x + u_xx; v_t = u_xx + v_xx", {}, {}, WELL, 2, -1, None),
+    "nilpotent": ("u_t = v; v_t = w; w_t = 0", {}, {}, WELL, 0, 0, 0),
+    "exponent 1/2": ("u_t = v; v_t = u_x", {}, {}, ILL, Fraction(1, 2), 0.5**0.5, math.inf),
+    "exponent 1/3": ("u_t = v_x; v_t = w; w_t = -u", {}, {}, ILL, Fraction(1, 3), 0.75**0.5, math.inf),
+    "exponent 2/3": ("u_t = v; v_t = w; w_t = u_xx", {}, {}, ILL, Fraction(2, 3), 0.5, math.inf),
+    "exponent 4/3": ("u_t = v; v_t = w; w_t = u_xxxx", {}, {}, ILL, Fraction(4, 3), 1, math.inf),
+    "hidden exponent 1/2": ("u_t = i*u_xx + v; v_t = i*v_xx + u_x", {}, {}, ILL, Fraction(1, 2), 0.5**0.5, math.inf),
+    "Schroedinger": ("u_t = i*u_xx", {}, {}, WELL, 0, 0, 0),
+    "Schroedinger, wrong-signed diffusion": ("u_t = i*u_xx - 0.1*u_xx", {}, {}, ILL, 2, 0.1, math.inf),
+    "Schroedinger, diffusion": ("u_t = i*u_xx + 0.1*u_xx", {}, {}, WELL, 2, -0.1, 0),
+    "one-sided": ("u_t = -i*u_x", {}, {}, ILL, 1, 1, math.inf),
+    "Benjamin-Bona-Mahony": ("u_t - u_xxt + u_x = 0", {}, {}, WELL, 0, 0, 0),
+    "diffusion in a pseudo-parabolic": ("u_t - u_xxt = u_xx", {}, {}, WELL, 0, -1, 0),
+    "growth": ("u_t = u_xxx + u", {}, {}, WELL, 0, 1, 1),
+    "constraint": ("u_t = -w; w = u_xx", {}, {}, ILL, 2, 1, math.inf),
+    # two space variables
+    "heat 2-D": ("u_t = u_xx + u_yy", {}, {}, WELL, 2, -1, 0),
+    "heat along x": ("u_t = u_xx + 0*u_yy", {}, {}, WELL, 0, 0, 0),
+    "forward-backward": ("u_t = u_xx - u_yy", {}, {}, ILL, 2, 1, math.inf),
+    "mixed derivative": ("u_t = u_xx + 3*u_xy + u_yy", {}, {}, ILL, 2, 0.5, math.inf),
+    "mixed derivative, milder": ("u_t = u_xx + u_xy + u_yy", {}, {}, WELL, 2, -0.5, 0),
+    "wave 2-D": ("u_tt = u_xx + u_yy", {}, {}, WELL, 0, 0, 0),
+    "ultrahyperbolic": ("u_tt = u_xx - u_yy", {}, {}, ILL, 1, 1, math.inf),
+    "Navier-Stokes": (FLOW, {"u": 1, "v": 0}, {"U": 0.3, "nu": 0.1}, WELL, 2, -0.1, 0),
+    "Euler": (FLOW, {}, {"U": 0.3, "nu": 0}, WELL, 0, 0, 0),
+    "negative viscosity": (FLOW, {}, {"U": 0.3, "nu": -0.1}, ILL, 2, 0.1, math.inf),
+    "drifting: (d_y)^4 against d_x": ("u_t = v + u_x; v_t = -u_yyyy - u_xx + v_x", {}, {}, ILL, 1, 1, math.inf),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_verdict(name):
+    text, at, parameters, kind, exponent, coefficient, bound = CASES[name]
+    found = verdict(text, at=at, **parameters)
+    assert isinstance(found, Verdict)
+    assert found.kind == kind
+    assert found.exponent == exponent
+    assert found.coefficient == pytest.approx(coefficient, rel=1e-12, abs=1e-14)
+    if bound is not None:
+        assert found.bound == pytest.approx(bound, rel=1e-13, abs=1e-15)
+    assert found.unstable == (found.bound > 0)
+    assert math.hypot(*found.direction) == pytest.approx(1)
+    assert found.reason.endswith(".")
+
+
+@pytest.mark.parametrize("name", [name for name, case in CASES.items() if case[3] == WELL and "_y" not in case[0]])
+def test_no_computed_growth_exceeds_the_bound(name):
+    text, at, parameters, *_ = CASES[name]
+    k = np.geomspace(1e-4, 1e4, 4000)
+    rates = growth_rates(text, np.concatenate([-k, k]), at=at, **parameters)
+    bound = verdict(text, at=at, **parameters).bound
+    real = np.where(np.abs(rates.real) < 1e-7 * np.abs(rates), 0, rates.real)  # double roots have half the digits
+    assert np.nanmax(real) <= bound + 1e-9
+    if bound > 0:
+        assert np.nanmax(real) > 0.9999 * bound
+
+
+def test_turing_bound():
+    """The largest growth of the Turing system where d(lambda)/d(xi^2) = 0, from its quadratic by hand."""
+    a, b, c, d, D = 1, 2, 2, 3, 30
+    q = np.linspace(0, 2, 2_000_001)  # xi^2
+    trace, det = a - d - (1 + D) * q, (a - q) * (-d - D * q) + b * c
+    best = np.max((trace + np.sqrt(np.maximum(trace**2 - 4 * det, 0))) / 2)
+    assert verdict(TURING, a=a, b=b, c=c, d=d, D=D).bound == pytest.approx(best, rel=1e-9)
+
+
+def test_kelvin_helmholtz():
+    """A vortex sheet's interface in its two potentials, reduced: growth |xi| U/2 without, bounded with surface tension.
+
+    lambda^2 = (U xi/2)^2 - s xi^4 for the long-wave (shallow-layer) form of the two-stream problem.
+    """
+    text = "h_t = q; q_t = -(U/2)^2*h_xx - s*h_xxxx"
+    sheet = verdict(text, U=3, s=0)
+    assert (sheet.kind, sheet.exponent, sheet.coefficient) == (ILL, 1, pytest.approx(1.5))
+    tense = verdict(text, U=3, s=0.1)
+    assert (tense.kind, tense.unstable) == (WELL, True)
+    assert tense.bound == pytest.approx(1.5**2 / (2 * 0.1**0.5), rel=1e-13)
+    two_layers = "a_t + (a*u)_x = 0; u_t + u*u_x + p_x + g*a_x = 0; v_t + v*v_x + p_x = 0; (a*u + (1 - a)*v)_x = 0"
+    at = {"a": 0.5, "u": 1, "v": -1, "a_x": 0, "u_x": 0, "v_x": 0}
+    for g, kind in ((1, ILL), (3, ILL), (5, WELL)):  # hyperbolic once g > (u - v)^2, Long (1956)
+        assert verdict(two_layers, at=at, g=g).kind == kind
+    assert verdict(two_layers, at=at, g=0).coefficient == pytest.approx(1)
+
+
+def test_maximal_order_can_mislead():
+    assert verdict("u_t = u_xxx - u_xx").kind == ILL
+    assert verdict("u_t = u_xxx - u_xx", order="maximal").kind == WELL
+    full, maximal = (verdict(TOY, at={"u": -0.5, "v_xx": 0.3}, eps=0.01, order=o) for o in ("full", "maximal"))
+    assert (full.exponent, full.coefficient) == (maximal.exponent, maximal.coefficient)  # eq. (toy-pde-lin)
+
+
+@pytest.mark.parametrize(
+    ("p", "kind", "exponent", "coefficient"),
+    [(0.3, ILL, 1, 0.6), (0.5, ILL, Fraction(2, 3), None), (0.7, WELL, 0, -5.6)],
+)
+def test_critical_state_soil(p, kind, exponent, coefficient):
+    """Dilating: |xi| sqrt(Y_p Y_phi/rho*). Critical: |xi|^{2/3} in a drifting direction. Contracting: bounded."""
+    pencil = critical_state(p)
+    found = verdict(pencil)
+    assert (found.kind, found.exponent) == (kind, exponent)
+    if coefficient is None:
+        computed = max_growth(pencil, 1e7).growth / 1e7 ** (2 / 3)
+        assert found.coefficient == pytest.approx(computed, rel=1e-3)
+        assert found.direction == pytest.approx((0.5**0.5, math.copysign(0.5**0.5, found.direction[1])))
+        assert "approached like |xi|^-2/3" in found.reason
+    else:
+        assert found.coefficient == pytest.approx(coefficient, rel=1e-9)
+
+
+def test_pencils_of_numbers():
+    assert verdict(navier_stokes(0.1)).coefficient == pytest.approx(-0.1)
+    compressible = verdict(granular(0.3, 0.2, 0.2, 0.7, 0.4, 0.6, -0.8))
+    assert (compressible.kind, compressible.exponent) == (WELL, 0)
+    assert compressible.bound == pytest.approx(1.2)
+    assert verdict(Pencil(lambda xi: [[np.sin(xi)]], [[1]])).kind == "undecided"
+    with pytest.raises(TypeError, match="text only"):
+        verdict(navier_stokes(), at={"u": 1})
+    with pytest.raises(TypeError, match="text, or as a Pencil"):
+        verdict(3)
+
+
+def test_growth_that_is_unbounded_at_a_finite_wavenumber_is_not_judged():
+    found = verdict("u_t + u_xxt = u_xx")  # lambda = -xi^2/(1 - xi^2)
+    assert found.kind == "undecided"
+    assert math.isnan(found.bound)
+    assert "near |xi| = 1" in found.reason
+
+
+@settings(max_examples=12, deadline=None)
+@given(*[st.integers(-3, 3)] * 3, st.integers(-3, 3))
+def test_anisotropic_quadratic_forms(a, b, c, d):
+    """u_t = a u_xx + b u_xy + c u_yy + d u_xxx: the largest eigenvalue of minus the form, d whatever it is."""
+    found = verdict(f"u_t = ({a})*u_xx + ({b})*u_xy + ({c})*u_yy + ({d})*u_xxx")
+    largest = -np.linalg.eigvalsh([[a, b / 2], [b / 2, c]])[0]
+    assert found.kind == (ILL if largest > 1e-12 else WELL)
+    if abs(largest) > 1e-12:
+        assert (found.exponent, found.coefficient) == (2, pytest.approx(largest, rel=1e-7))
+    else:
+        assert found.bound == 0
+
+
+@pytest.mark.parametrize(
+    ("text", "word"),
+    [
+        ("u_t = u_xx; u_x + v_x = 0; v_t = 0", "3 equations for 2 unknowns"),
+        ("u_t + v_t = u_x; u_t + v_t = u_x", "do not determine the unknowns"),
+        ("u_x = 0", "no equation contains a time derivative"),
+        ("u_t = v_x; u_x = 0", "nothing that evolves"),
+    ],
+)
+def test_systems_without_an_answer(text, word):
+    with pytest.raises(PDEError, match=word):
+        verdict(text)
+
+
+def test_a_verdict_takes_less_than_a_second():
+    verdict("u_t = u_xx")  # imports
+    for name in ("toy, u > 0", "toy, u < 0", "toy, u = 0", "Turing", "shallow water", "wave"):
+        text, at, parameters, *_ = CASES[name]
+        start = time.perf_counter()
+        verdict(text, at=at, **parameters)
+        assert time.perf_counter() - start < 1
