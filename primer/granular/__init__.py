@@ -1,1 +1,35 @@
 """Granular rheologies under the same test: Coulomb, mu(I), CSSM and CIDR (sections 2 to 4 of the paper)."""
+
+from primer.granular.compaction import Compaction
+from primer.granular.criteria import conditions, critical_state, incompressible_criterion, neutral_inertial_numbers
+from primer.granular.friction import Friction, MuI
+from primer.granular.linearisation import coefficients, linearise
+from primer.granular.materials import DISCS_2011, EXAMPLE_COMPACTION, GLASS_BEADS, GLASS_BEADS_2015, GLASS_BEADS_2017
+from primer.granular.rheology import CIDR, CSSM, Coulomb, IncompressibleMuI
+from primer.granular.state import BaseState
+from primer.granular.posedness import growth_limit, largest_growth, verdict
+
+__all__ = [
+    "CIDR",
+    "CSSM",
+    "DISCS_2011",
+    "EXAMPLE_COMPACTION",
+    "GLASS_BEADS",
+    "GLASS_BEADS_2015",
+    "GLASS_BEADS_2017",
+    "BaseState",
+    "Compaction",
+    "Coulomb",
+    "Friction",
+    "IncompressibleMuI",
+    "MuI",
+    "coefficients",
+    "conditions",
+    "critical_state",
+    "growth_limit",
+    "incompressible_criterion",
+    "largest_growth",
+    "linearise",
+    "neutral_inertial_numbers",
+    "verdict",
+]

@@ -42,7 +42,9 @@ class MuI:
         object.__setattr__(self, "mu2", real("mu2", self.mu2))
         object.__setattr__(self, "I0", real("I0", self.I0, above=0))
         if not self.mu2 > self.mu1:
-            raise ValueError(f"mu2 must be > mu1 so that friction rises with I, got mu1 = {self.mu1!r}, mu2 = {self.mu2!r}")
+            raise ValueError(
+                f"mu2 must be > mu1 so that friction rises with I, got mu1 = {self.mu1!r}, mu2 = {self.mu2!r}"
+            )
 
     def mu(self, I):
         """mu(I), of the shape of I."""
