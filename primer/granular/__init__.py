@@ -5,9 +5,9 @@ from primer.granular.criteria import conditions, critical_state, incompressible_
 from primer.granular.friction import Friction, MuI
 from primer.granular.linearisation import coefficients, linearise
 from primer.granular.materials import DISCS_2011, EXAMPLE_COMPACTION, GLASS_BEADS, GLASS_BEADS_2015, GLASS_BEADS_2017
+from primer.granular.posedness import growth_limit, largest_growth, verdict
 from primer.granular.rheology import CIDR, CSSM, Coulomb, IncompressibleMuI
 from primer.granular.state import BaseState
-from primer.granular.posedness import growth_limit, largest_growth, verdict
 
 __all__ = [
     "CIDR",

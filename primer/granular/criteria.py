@@ -55,7 +55,7 @@ def conditions(law, state):
         + np.abs(law.f(state.p, state.phi, state.I))
         + c.t * 2 * c.D / state.p
     )
-    Y_I, slope = 2 * c.D * c.A / state.I, -c.Gamma / (2 * c.D)
+    Y_I, slope = 2 * c.D * c.A / I, -c.Gamma / (2 * c.D)
     return Conditions(c.B, c.C, np.abs(c.B - c.C) <= 1e-9 * size, Y_I, Y_I > 0, slope, slope < 0)
 
 

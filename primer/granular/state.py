@@ -79,7 +79,7 @@ def admit(law, state):
     if not isinstance(state, BaseState):
         raise TypeError(f"state must be a BaseState, got {shown(state)}")
     Y = np.broadcast_to(law.Y(state.p, state.phi, state.I), state.shape)
-    bad = ~((Y > 0) & (Y < np.inf))
+    bad = ~((Y > 0) & (np.inf > Y))
     if bad.any():
         p, phi, I = (np.broadcast_to(v, state.shape)[bad][0] for v in (state.p, state.phi, state.I))
         at = f"p = {p:g}, phi = {phi:g}, I = {I:g}"
