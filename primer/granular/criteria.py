@@ -50,11 +50,8 @@ def conditions(law, state):
     ValueError    if the law does not admit the state
     """
     c = coefficients(law, state)
-    size = (
-        np.abs(law.Y_p(state.p, state.phi, state.I))
-        + np.abs(law.f(state.p, state.phi, state.I))
-        + c.t * 2 * c.D / state.p
-    )
+    p, phi, I = state.p, state.phi, state.I
+    size = np.abs(law.Y_p(p, phi, I)) + np.abs(law.f(p, phi, I)) + c.tau / p
     Y_I, slope = 2 * c.D * c.A / I, -c.Gamma / (2 * c.D)
     return Conditions(c.B, c.C, np.abs(c.B - c.C) <= 1e-9 * size, Y_I, Y_I > 0, slope, slope < 0)
 

@@ -74,7 +74,7 @@ def growth_rate(c, k, x):
 
 
 def growth_rates(c, k, x):
-    """All growth rates: complex, of the broadcast shape + (3,), or + (1,) for an incompressible law, rightmost first."""
+    """All growth rates: complex, of the broadcast shape + (3,) or, incompressible, + (1,); rightmost first."""
     if c.incompressible:
         return growth_rate(c, k, x)[..., None] + 0j
     r, b, q = split(*cubic(c, k, x))

@@ -42,9 +42,7 @@ class MuI:
         object.__setattr__(self, "mu2", real("mu2", self.mu2))
         object.__setattr__(self, "I0", real("I0", self.I0, above=0))
         if not self.mu2 > self.mu1:
-            raise ValueError(
-                f"mu2 must be > mu1 so that friction rises with I, got mu1 = {self.mu1!r}, mu2 = {self.mu2!r}"
-            )
+            raise ValueError(f"mu2 must be > mu1 = {self.mu1!r} so that friction rises with I, got {self.mu2!r}")
 
     def mu(self, I):
         """mu(I), of the shape of I."""
@@ -158,7 +156,7 @@ def _J(r):
 
 
 def _hyper(b, x):
-    """2F1(1, b; b + 1; -x) for 0 <= x <= 1, by Pfaff's transformation: a series of positive terms in x/(1 + x) <= 1/2."""
+    """2F1(1, b; b + 1; -x) for 0 <= x <= 1 by Pfaff's transformation: positive terms in powers of x/(1 + x) <= 1/2."""
     z = x / (1 + x)
     total = np.ones_like(z)
     for n in range(56, 0, -1):  # 2^-56 is below the last bit

@@ -7,7 +7,7 @@ import numpy as np
 from primer.granular.dispersion import Delta, at, dispersion
 from primer.granular.fastest import fastest
 
-#: Below this, relative to its terms, a quantity that decides the case counts as zero: rounding in Y, f and their partials.
+#: A quantity that decides the case counts as zero below this, relative to its terms: rounding in Y, f and partials.
 _ZERO = 1e-12
 
 
@@ -18,7 +18,7 @@ class Leading:
     Attributes
     ----------
     exponent       2, 1, 2/3 or 0; nan where undecided
-    coefficient    positive where exponent > 0 means ill-posedness; inf if the growth is unbounded already at finite |xi|
+    coefficient    inf if the growth is unbounded already at finite |xi|
     x              cos 2 theta of the direction (its limit, where it drifts)
     ill_posed      whether limsup Re lambda = +infinity
     limit          limsup of the largest Re lambda: +inf if ill posed, -inf if every mode is damped without bound

@@ -189,9 +189,7 @@ def wavevectors(c, xi):
 
 def _needs_gamma(c):
     if np.any(np.asarray(c.Gamma) == 0):
-        raise ValueError(
-            "Gamma must not be 0: in an incompressible law the pressure is a multiplier, not a function of u"
-        )
+        raise ValueError("Gamma must not be 0: the pressure of an incompressible law is not a function of the flow")
 
 
 def _without_phi(matrix):

@@ -61,8 +61,8 @@ def verdict(law, state):
 def growth_limit(law, state):
     """The largest growth rate over all directions as |xi| -> infinity, in closed form, of the state's shape.
 
-    lambda_3 -> -phi N(x)/Delta(x), see ``dispersion``, a quotient of quadratics in x = cos 2 theta. inf where the law is
-    ill posed; -inf where every mode is damped without bound (a well-posed incompressible law).
+    lambda_3 -> -phi N(x)/Delta(x), see ``dispersion``, a quotient of quadratics in x = cos 2 theta. inf where the law
+    is ill posed; -inf where every mode is damped without bound (a well-posed incompressible law).
     """
     return leading(coefficients(law, state)).limit
 
