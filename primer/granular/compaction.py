@@ -57,8 +57,7 @@ class Compaction:
 
     def _z(self, phi):
         phi = real_array("phi", phi)
-        z = (phi - self.phi0) / self.eps
-        if (z < 0).any() or (z >= 1).any():
-            top = self.phi0 + self.eps
+        z, top = (phi - self.phi0) / self.eps, self.phi0 + self.eps
+        if ((phi < self.phi0) | (phi >= top) | (z >= 1)).any():
             raise ValueError(f"phi must satisfy phi0 = {self.phi0:g} <= phi < phi0 + eps = {top:g}, got {shown(phi)}")
         return z
