@@ -11,7 +11,15 @@ from primer.granular.dispersion import growth_rate
 from primer.granular.linearisation import Coefficients
 
 _SCAN = np.cos(np.linspace(0, np.pi, 25))
-_FAN = 10.0 ** -np.arange(1, 13)
+_STEP = np.pi / 24  # no neighbour of a scanned x is further away
+_OUT = 10.0 ** -np.arange(12.0, 0, -1)
+_FAN = np.concatenate([-_OUT[::-1], [0], _OUT])
+_NEXT = np.concatenate([_OUT[1:], _OUT[-1:] + _STEP])  # outwards from each of _OUT
+_PREVIOUS = np.concatenate([[0], _OUT[:-1]])  # and inwards
+_REACH = (
+    np.concatenate([np.full(25, -_STEP), (_OUT - _NEXT)[::-1], [-_OUT[0]], _PREVIOUS - _OUT]),
+    np.concatenate([np.full(25, _STEP), (_OUT - _PREVIOUS)[::-1], [_OUT[0]], _NEXT - _OUT]),
+)
 _BLOCK = 2048  # states at a time: the work arrays then stay in the cache
 _GOLDEN = (math.sqrt(5) - 1) / 2
 
@@ -58,13 +66,12 @@ def flattest(c):
 
 def _block(c, k):
     centre = flattest(c)
-    fan = np.concatenate([_FAN, _FAN[-1:], _FAN]), np.concatenate([_FAN, [0], -_FAN])
-    x = np.concatenate([np.broadcast_to(_SCAN[:, None], (25, k.size)), np.clip(centre + fan[1][:, None], -1, 1)])
+    x = np.concatenate([np.broadcast_to(_SCAN[:, None], (_SCAN.size, k.size)), centre + _FAN[:, None]])
+    x = np.clip(x, -1, 1)
     rate = growth_rate(c, k, x)
     best, rows = np.argmax(rate, axis=0), np.arange(k.size)
     top, where = rate[best, rows], x[best, rows]
-    width = np.concatenate([np.full(25, 2 * math.pi / 24), 4 * fan[0]])[best]
-    low, high = np.clip(where - width, -1, 1), np.clip(where + width, -1, 1)
+    low, high = (np.clip(where + reach[best], -1, 1) for reach in _REACH)  # to the neighbours on either side
     left, right = high - _GOLDEN * (high - low), low + _GOLDEN * (high - low)
     fl, fr = growth_rate(c, k, left), growth_rate(c, k, right)
     for _ in range(34):
