@@ -39,6 +39,14 @@ _HOME = {
     "max_growth": "analysis.directions",
     "reference": "schemes.reference",
     "verdict": "analysis.verdict",
+    "BaseState": "granular.state",
+    "CIDR": "granular.rheology",
+    "CSSM": "granular.rheology",
+    "Compaction": "granular.compaction",
+    "Coulomb": "granular.rheology",
+    "Friction": "granular.friction",
+    "IncompressibleMuI": "granular.rheology",
+    "MuI": "granular.friction",
 }
 _ROOMS = ("problems", "schemes", "analysis", "granular", "study", "view")
 

@@ -205,8 +205,8 @@ def test_the_clause_is_needed():
     power = Friction(lambda I: 1.5 * I**0.9, lambda I: 1.35 * I**-0.1)
     says = incompressible_criterion(power, 1.0)
     assert says.n == pytest.approx(0.9)
-    assert says.B == pytest.approx(0.825)
-    assert says.C == pytest.approx(0.825**2 - 0.36)
+    assert pytest.approx(0.825) == says.B
+    assert pytest.approx(0.825**2 - 0.36) == says.C
     assert says.well_posed
     law, state = IncompressibleMuI(power), BaseState(0.3, 0.6, 1.0)
     assert verdict(law, state).kind == "well-posed"

@@ -73,7 +73,7 @@ def _compressible(c):
     d = dispersion(c)
     T_low, T_high = d.T[0] - np.abs(d.T[1]), d.T[0] + np.abs(d.T[1])
     sign = np.where(c.Gamma == 0, np.sign(d.T[0]), np.sign(c.Gamma))
-    least, x0 = _least_Delta(c, sign)
+    least, x0 = least_Delta(c, sign)
     scale = c.t * (1 + np.abs(c.B)) * (1 + np.abs(c.C)) + np.abs(c.A)
     turned = np.minimum(sign * T_low, sign * T_high) <= 0
     quadratic = turned | (least < -(_ZERO**2) * scale)
@@ -103,7 +103,7 @@ def _compressible(c):
     )
 
 
-def _least_Delta(c, sign):
+def least_Delta(c, sign):
     """The minimum of sign Delta over x in [-1, 1], and where, with no cancellation where A and B - C are small."""
     m, h, bend = (c.B + c.C) / 2, (c.B - c.C) / 2, c.t - c.A
     safe = np.where(bend == 0, 1, bend)
