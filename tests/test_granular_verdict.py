@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pytest
 
+from primer import max_growth
 from primer.granular import (
     CIDR,
     CSSM,
@@ -29,6 +30,7 @@ from primer.granular import (
 from primer.granular.dispersion import Delta, growth_rate
 from primer.granular.fastest import fastest
 from primer.granular.limits import quotient_maximum
+from primer.granular.violations import cases, table
 
 BEADS, PACKING = GLASS_BEADS.friction, EXAMPLE_COMPACTION
 CIDR_BEADS = CIDR(BEADS, PACKING)
@@ -308,3 +310,25 @@ def test_the_theorem_on_100_000_random_states():
     state = BaseState(10 ** rng.uniform(-3, 3, n), rng.uniform(0.1, 0.9, n), 10 ** rng.uniform(-6, 3, n))
     assert (growth_limit(Coulomb(0.3), state) == np.inf).all()
     assert (fastest(coefficients(Coulomb(0.3), state), 1.0)[0] > 0).all()
+
+
+def test_the_table_of_violations_breaks_what_it_says():
+    rows = {row.name.split(":")[0]: row for row in cases()}
+    held = {name: tuple(map(bool, (r.conditions.equality, r.conditions.a, r.conditions.b))) for name, r in rows.items()}
+    assert held == {
+        "all hold": (True, True, True),
+        "(a) fails, Y_I = 0": (True, False, True),
+        "(a) fails, Y_I < 0": (True, False, True),
+        "equality fails": (False, True, True),
+        "(b) fails": (True, True, False),
+    }
+    kinds = [row.verdict.kind for row in cases()]
+    assert kinds == ["well-posed", "ill-posed", "well-posed", "ill-posed", "well-posed", "ill-posed", "ill-posed"]
+    for row in cases():  # each verdict against the eigenvalues of the pencil, far out
+        k = np.array([1e5, 1e6, 1e7])
+        rate = max_growth(linearise(row.law, row.state), k).growth
+        if row.verdict.kind == "ill-posed":
+            np.testing.assert_allclose(rate / k ** float(row.verdict.exponent), row.verdict.coefficient, rtol=1e-3)
+        else:
+            assert rate.max() <= row.verdict.bound + 1e-6
+    assert len(table(cases()).splitlines()) == 8

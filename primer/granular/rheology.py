@@ -8,6 +8,7 @@ A law may say more: ``p_max(phi, I)``, the pressure at which Y falls to zero, an
 declares f = 0 and phi constant.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
@@ -211,3 +212,25 @@ class CIDR(_Compressible):
     def db(self, I):
         """beta'(I)."""
         return self.friction.dbeta(I)
+
+
+@dataclass(frozen=True)
+class Ansatz(_Compressible):
+    """Eq. (Cmu-ansatz-for-aux-fcn) with any a(I) and b(I), to break the theorem's hypotheses one at a time::
+
+        Y = a(I) p - p^2/C(phi),    f = b(I) - 2 p/C(phi)
+
+    Parameters
+    ----------
+    a, da, b, db : callable    a(I), a'(I), b(I), b'(I), each taking and giving arrays
+    compaction : Compaction    C(phi)
+    """
+
+    a: Callable
+    da: Callable
+    b: Callable
+    db: Callable
+    compaction: Compaction
+
+    def __post_init__(self):
+        self._check_compaction()
