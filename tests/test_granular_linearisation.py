@@ -1,5 +1,7 @@
 """Guards the pencil (e26), its reduction to 3 x 3 and the closed-form dispersion relation, each by a second route."""
 
+from dataclasses import fields, replace
+
 import mpmath as mp
 import numpy as np
 import pytest
@@ -7,6 +9,7 @@ import sympy as sp
 
 from primer import Pencil, growth, max_growth
 from primer.analysis.eigen import finite_eigenvalues
+from primer.analysis.puiseux import branches
 from primer.granular import (
     CIDR,
     CSSM,
@@ -17,6 +20,7 @@ from primer.granular import (
     IncompressibleMuI,
     coefficients,
     linearise,
+    proof,
 )
 from primer.granular.dispersion import at, cubic, dispersion, growth_rate, growth_rates
 from primer.granular.equations import derive
@@ -152,6 +156,37 @@ def test_five_by_five_three_by_three_and_closed_form_agree_at_10_000_random_stat
     for other in (five, three):
         nearest = np.abs(other[:, None, :] - closed[:, :, None]).min(axis=2)
         assert (nearest / np.abs(closed)).max() < 1e-9
+
+
+def test_the_growth_laws_at_infinity_agree_with_the_eigenvalues_and_with_the_newton_polygon():
+    law, states = random_cidr(10_000, seed=4, low=-4, high=2)
+    c = coefficients(law, states)
+    x = np.random.default_rng(5).uniform(-1, 1, 10_000)
+    # Corrections are O((k_v/k)^2) with k_v^2 = R ||D||/viscosity: far below the digits compared.
+    k = 1e9 * np.sqrt(c.density * c.D * c.Gamma * proof.trace_MN(c, x) / at(dispersion(c).Delta, x))
+    lam = growth_rates(c, k, x).real
+    lam = np.take_along_axis(lam, np.argsort(np.abs(lam), axis=1), axis=1)
+    ours = np.column_stack([proof.lambda_3(c, x), proof.Lambda(c, x) * k[:, None] ** 2])
+    np.testing.assert_allclose(lam, ours, rtol=1e-9)
+    for j in range(0, 10_000, 200):
+        one = replace(c, **{f.name: getattr(c, f.name)[j] for f in fields(c) if f.name != "incompressible"})
+        found = branches(polynomial(one, x[j]))
+        assert [branch.law.exponent for branch in found if branch.law.coefficient < 0][-1] == 2
+        theirs = sorted((abs(b.law.coefficient), float(b.law.exponent), b.law.coefficient) for b in found)
+        expected = [proof.lambda_3(one, x[j]), *proof.Lambda(one, x[j])]
+        np.testing.assert_allclose([v[2] for v in theirs], sorted(expected, key=abs), rtol=1e-9)
+
+
+def polynomial(c, x):
+    """The dispersion relation as {(power of lambda, power of k): coefficient}."""
+    d, R = dispersion(c), c.density
+    return {
+        (3, 0): c.Gamma,
+        (2, 2): at(d.T, x) / R,
+        (1, 4): at(d.Delta, x) / R**2,
+        (1, 2): at(d.Sigma, x) / c.rho,
+        (0, 4): c.phi * at(d.N, x) / R**2,
+    }
 
 
 def test_closed_form_agrees_with_multiprecision_roots_for_every_law():

@@ -1,6 +1,8 @@
 """Well posed or ill posed: the verdict on a law at a base state."""
 
-from dataclasses import dataclass, fields, replace
+import math
+from dataclasses import fields, replace
+from fractions import Fraction
 
 import numpy as np
 
@@ -10,51 +12,40 @@ from primer.granular.limits import leading
 from primer.granular.linearisation import coefficients
 
 
-@dataclass(frozen=True, eq=False)
-class Verdict:
-    kind: str
-    exponent: float
-    coefficient: float
-    direction: np.ndarray
-    bound: float
-    unstable: bool
-    reason: str
-
-
 def verdict(law, state):
     """Whether the frozen equations of a law are linearly well posed at a base state, and how fast they grow if not.
 
     Returns
     -------
-    Verdict, whose fields have the state's shape:
-        kind           "well-posed", "ill-posed" or "undecided"
-        exponent       Re lambda ~ coefficient |xi|^exponent for the fastest branch as |xi| -> infinity
-        coefficient    inf if the growth is unbounded already at finite |xi| (an incompressible law with |B| >= 1)
-        direction      unit vector(s) in the frame of the major compressive axis, of shape (2,) + shape
-        bound          the supremum of the growth over all wavevectors, at least 0; inf if ill posed
-        unstable       whether it is positive: bounded growth is instability, not ill-posedness
-        reason         a sentence
+    primer.analysis.verdict.Verdict, with the fields it has there for a single state. For an array of states the fields
+    are arrays of the states' shape (direction: (2,) + shape). direction is in the frame of the major compressive axis;
+    coefficient is inf if the growth is unbounded already at finite |xi| (an incompressible law with |B| >= 1).
 
     Raises
     ------
     ValueError    if the law does not admit the state
     """
+    from primer.analysis.verdict import Kind, Verdict
+
     c = coefficients(law, state)
     lead = leading(c)
     bound = np.where(lead.ill_posed, np.inf, np.where(np.isnan(lead.limit), np.nan, np.maximum(lead.limit, 0)))
     bound = _with_long_waves(c, bound)
-    kind = np.where(lead.ill_posed, "ill-posed", np.where(np.isnan(lead.exponent), "undecided", "well-posed"))
-    theta = np.arccos(np.clip(lead.x, -1, 1)) / 2
-    numbers = np.broadcast_arrays(kind, lead.exponent, lead.coefficient, lead.limit, bound, theta)
-    reason = np.array([_reason(c.incompressible, *row) for row in zip(*(v.ravel() for v in numbers), strict=True)])
+    kind = np.where(lead.ill_posed, Kind.ILL_POSED, np.where(np.isnan(lead.exponent), Kind.UNDECIDED, Kind.WELL_POSED))
+    rows = zip(*(np.ravel(v) for v in (kind, lead.exponent, lead.coefficient, lead.limit, bound, lead.x)), strict=True)
+    reason = np.array([_reason(c.incompressible, *row) for row in rows], dtype=object).reshape(kind.shape)
+    direction = _direction(lead.x)
+    if kind.ndim:
+        return Verdict(kind, lead.exponent, lead.coefficient, direction, bound, bound > 0, reason)
+    exponent = float(lead.exponent)
     return Verdict(
-        kind=_scalar(kind, str),
-        exponent=_scalar(lead.exponent, float),
-        coefficient=_scalar(lead.coefficient, float),
-        direction=np.stack([np.cos(theta), np.sin(theta)]),
-        bound=_scalar(bound, float),
-        unstable=_scalar(bound > 0, bool),
-        reason=_scalar(reason.reshape(np.shape(kind)), str),
+        kind=Kind(str(kind)),
+        exponent=exponent if math.isnan(exponent) else Fraction(exponent).limit_denominator(3),
+        coefficient=float(lead.coefficient),
+        direction=tuple(direction.tolist()),
+        bound=float(bound),
+        unstable=bool(bound > 0),
+        reason=reason[()],
     )
 
 
@@ -70,8 +61,13 @@ def growth_limit(law, state):
 def largest_growth(law, state, k):
     """(growth, direction): the largest growth rate at |xi| = k over all directions, and a unit vector (2,) + shape."""
     rate, x = fastest(coefficients(law, state), k)
-    theta = np.arccos(np.clip(x, -1, 1)) / 2
-    return rate, np.stack([np.cos(theta), np.sin(theta)])
+    return rate, _direction(x)
+
+
+def _direction(x):
+    """(cos theta, sin theta) from x = cos 2 theta, 0 <= theta <= 90 degrees."""
+    x = np.clip(x, -1, 1)
+    return np.stack([np.sqrt((1 + x) / 2), np.sqrt((1 - x) / 2)])
 
 
 def _with_long_waves(c, bound):
@@ -102,12 +98,8 @@ def _pick(c, index):
     return replace(c, **{f.name: getattr(c, f.name)[index] for f in fields(c) if f.name != "incompressible"})
 
 
-def _scalar(value, kind):
-    return kind(value) if np.ndim(value) == 0 else value
-
-
-def _reason(incompressible, kind, exponent, coefficient, limit, bound, theta):
-    where = f"at {np.degrees(theta):.4g} degrees from the major compressive axis"
+def _reason(incompressible, kind, exponent, coefficient, limit, bound, x):
+    where = f"at {np.degrees(np.arccos(x)) / 2:.4g} degrees from the major compressive axis"
     if kind == "undecided":
         return "the leading terms vanish together at a knife edge: the orders kept here do not decide"
     if coefficient == np.inf:
