@@ -18,69 +18,86 @@ class Noise:
     Attributes
     ----------
     n : int                          grid points along each side
-    t : float                        time
-    before, after : (3, n, n)        (u_1, u_2, phi) at times 0 and t, perturbations; axis 1 is x_1, axis 2 is x_2
+    t, side : float                  the time, and the side of the square
+    before, after : (3, n, n)        (u_1, u_2, phi) at times 0 and t; axis 1 is x_1, axis 2 is x_2
     gain : float                     r.m.s. velocity at t over that at 0
-    measured : float                 the growth rate of the r.m.s. velocity over the last tenth of t
-    predicted : float                the largest growth rate of the symbol over the grid's wavevectors
+    k : array                        wavenumbers, one for each shell of modes of like |m|
+    measured : array                 on each shell the fastest growth of a mode's velocity over the last tenth of t
+    predicted : array                on each shell the largest growth rate of the symbol
     """
 
     n: int
     t: float
+    side: float
     before: np.ndarray
     after: np.ndarray
     gain: float
-    measured: float
-    predicted: float
+    k: np.ndarray
+    measured: np.ndarray
+    predicted: np.ndarray
 
 
-def noise_after(law, state, n, t, side=200.0, seed=1, smooth=4.0):
+def noise_after(law, state, n, t, side=200.0, seed=1, smooth=2.5):
     """What a law makes of noise: the ``Noise`` on the n x n grid at time t.
 
     The noise is a sum of Fourier modes whose amplitudes depend on the seed and the wavevector alone, so that a finer
-    grid adds modes and changes none. A velocity that must be free of divergence is projected.
+    grid adds modes and changes none. Velocities are of the size of ||D|| d, phi of 1/1000; the equations are linear, so
+    only this ratio matters. A velocity that must be free of divergence is projected.
 
     Parameters
     ----------
     law, state     as in ``linearise``, a single state
     n : int        even, >= 4; wavevectors (2 pi/side) m with |m_1|, |m_2| < n/2
     t : float      time > 0
-    side : float   the side of the square, in the units of d
+    side : float   the side of the square, in units of length
     seed : int     of the noise
     smooth : float amplitudes fall like |m|^-smooth
     """
     n, t, side = integer("n", n, least=4), real("t", t, above=0), real("side", side, above=0)
     c = coefficients(law, state)
-    m = np.fft.fftfreq(n, 1 / n)
-    xi = 2 * np.pi / side * np.stack(np.meshgrid(m, m, indexing="ij"))
-    q = modes(n, seed, smooth)
+    q = modes(n, seed, smooth) * np.array([state.D * state.d, state.D * state.d, 1e-3])[:, None, None]
     moving = np.abs(q).any(axis=0)
+    m = np.stack(np.meshgrid(*[np.fft.fftfreq(n, 1 / n)] * 2, indexing="ij"))[:, moving]
+    xi = 2 * np.pi / side * m
     if c.incompressible:
-        step, value = _step_incompressible(c, xi[:, moving], q[:, moving], t / _PARTS)
+        step, value = _step_incompressible(c, xi, q[:, moving], t / _PARTS)
     else:
         from scipy.linalg import expm
 
-        step, value = expm(-reduced(c, xi[:, moving]) * (t / _PARTS)), q[:, moving].T
+        step, value = expm(-reduced(c, xi) * (t / _PARTS)), q[:, moving].T
     values = [value]
     for _ in range(_PARTS):
         values.append((step @ values[-1][..., None])[..., 0])
-    fields = []
-    for value in (values[0], values[-2], values[-1]):
-        spectrum = np.zeros_like(q)
-        spectrum[:, moving] = value.T
-        fields.append(np.fft.ifft2(spectrum, norm="forward").real)
-    size = [np.sqrt((field[:2] ** 2).mean()) for field in fields]
-    k = np.hypot(*xi[:, moving])
-    x = (xi[0, moving] ** 2 - xi[1, moving] ** 2) / k**2
+    before, after = (_field(n, moving, v) for v in (values[0], values[-1]))
+    k, speeds = np.hypot(*xi), [np.linalg.norm(v[:, :2], axis=1) for v in values[-2:]]
+    alive = (speeds[0] > 0) & (speeds[1] > 0)  # a mode damped below the smallest number has no rate left to measure
+    rates = np.full(k.shape, -np.inf)
+    rates[alive] = np.log(speeds[1][alive] / speeds[0][alive]) * _PARTS / t
+    symbol = growth_rate(c, k, (xi[0] ** 2 - xi[1] ** 2) / k**2)
+    shell = np.round(np.hypot(*m)).astype(int)
+    shells = np.unique(shell)
     return Noise(
         n=n,
         t=t,
-        before=fields[0],
-        after=fields[2],
-        gain=size[2] / size[0],
-        measured=np.log(size[2] / size[1]) * _PARTS / t,
-        predicted=float(growth_rate(c, k, x).max()),
+        side=side,
+        before=before,
+        after=after,
+        gain=_rms(after[:2]) / _rms(before[:2]),
+        k=2 * np.pi / side * shells,
+        measured=np.array([rates[shell == s].max() for s in shells]),
+        predicted=np.array([symbol[shell == s].max() for s in shells]),
     )
+
+
+def _field(n, moving, value):
+    spectrum = np.zeros((3, n, n), dtype=complex)
+    spectrum[:, moving] = value.T
+    return np.fft.ifft2(spectrum, norm="forward").real
+
+
+def _rms(v):
+    top = np.abs(v).max()
+    return top * np.sqrt(((v / top) ** 2).mean())
 
 
 def modes(n, seed, smooth):
