@@ -38,5 +38,5 @@ def draw(routes):
     draw_routes(ax, routes)
     ax.loglog(routes.k, 2e-16 * routes.k**2, color=STEADY, lw=1)
     ax.annotate(r"$\epsilon\,(|\xi| d)^2$", (3e3, 6e-9), color=STEADY, fontsize=9, rotation=30)
-    ax.legend(loc="center left", fontsize=8.5, bbox_to_anchor=(0.02, 0.55))
+    figure.legend(loc="outside lower center", fontsize=8.5, ncols=3)
     return figure

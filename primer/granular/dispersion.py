@@ -104,7 +104,8 @@ def split(c3, c2, c1, c0):
     c3, c2, c1, c0 = np.broadcast_arrays(*(np.asarray(v, dtype=float) for v in (c3, c2, c1, c0)))
     lead = np.where(c3 == 0, np.where(c2 == 0, 1, c2), c3)
     c2, c1, c0 = c2 / lead, c1 / lead, c0 / lead
-    r = _real_root(c2, c1, c0)
+    shape = c2.shape
+    r = _real_root(*(np.atleast_1d(v) for v in (c2, c1, c0))).reshape(shape)
     outer = np.abs(r) ** 3 >= np.abs(c0)
     safe = np.where(r == 0, 1, r)
     q = np.where(outer, np.where(r == 0, c1, -c0 / safe), c1 + (c2 + r) * r)
@@ -114,19 +115,23 @@ def split(c3, c2, c1, c0):
 
 
 def _real_root(c2, c1, c0):
-    """A real root of lam^3 + c2 lam^2 + c1 lam + c0: Viete's and Cardano's formulae, then Newton's method."""
+    """A real root of lam^3 + c2 lam^2 + c1 lam + c0 by Viete's or Cardano's formula; Newton's method if it cancels."""
     Q, P = c2 * c2 / 9 - c1 / 3, c2 * (c2 * c2 / 27 - c1 / 6) + c0 / 2
-    three = P * P < Q**3
-    sign = np.where(P < 0, -1.0, 1.0)
-    rootQ = np.sqrt(np.maximum(Q, 0))
-    cosine = np.abs(P) / np.where(three, np.where(rootQ == 0, 1, rootQ) ** 3, np.abs(P) + (P == 0))
-    pair = np.cbrt(np.abs(P) + np.sqrt(np.maximum(P * P - Q**3, 0)))
-    y = np.where(
-        three,
-        2 * rootQ * np.cos(np.arccos(np.minimum(cosine, 1)) / 3),
-        pair + np.divide(Q, pair, out=np.zeros_like(Q), where=pair != 0),
-    )
-    r = -sign * y - c2 / 3
+    cube, size = Q * Q * Q, np.abs(P)
+    only = cube <= P * P
+    root = np.sqrt(np.where(only, 1, Q))
+    y = 2 * root * np.cos(np.arccos(np.minimum(size / (root * root * root), 1)) / 3)
+    if only.any():
+        pair = np.cbrt(size[only] + np.sqrt(P[only] ** 2 - cube[only]))
+        y[only] = pair + np.divide(Q[only], pair, out=np.zeros_like(pair), where=pair != 0)
+    r = np.copysign(y, -P) - c2 / 3
+    small = only | (np.abs(r) < y)
+    if small.any():
+        r[small] = _newton(r[small], c2[small], c1[small], c0[small])
+    return r
+
+
+def _newton(r, c2, c1, c0):
     for _ in range(4):
         slope = (3 * r + 2 * c2) * r + c1
         value = ((r + c2) * r + c1) * r + c0

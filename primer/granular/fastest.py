@@ -29,7 +29,7 @@ def fastest(c, k):
 
     A scan of fixed directions is not enough (CSSM's growth at its critical state lives in a window of width k^{-2/3}
     that drifts), so x = cos 2 theta is scanned also at all distances from the minimum of det(M + N), and the best
-    point is refined by golden sections to about 1e-7 of its surroundings, that is 1e-14 in the growth.
+    point is refined by golden sections to about 1e-5 of its surroundings, that is 1e-10 of the curvature there.
 
     Parameters
     ----------
@@ -74,7 +74,7 @@ def _block(c, k):
     low, high = (np.clip(where + reach[best], -1, 1) for reach in _REACH)  # to the neighbours on either side
     left, right = high - _GOLDEN * (high - low), low + _GOLDEN * (high - low)
     fl, fr = growth_rate(c, k, left), growth_rate(c, k, right)
-    for _ in range(34):
+    for _ in range(26):
         up = fr > fl
         low, high = np.where(up, left, low), np.where(up, high, right)
         new = np.where(up, low + _GOLDEN * (high - low), high - _GOLDEN * (high - low))

@@ -56,7 +56,8 @@ def neutral_stress_ratio(friction, I):
 
     Returns
     -------
-    array of the shape of I; in terms of pressure the curve is p/C = alpha(I) - T
+    array of the shape of I; in terms of pressure the curve is p/C = alpha(I) - T, and where that is negative CIDR is
+    damped at every pressure
     """
     friction, I = as_friction(friction), inertial("I", I)
     mu, s = np.broadcast_arrays(friction.mu(I), I * friction.dmu(I))
