@@ -354,3 +354,13 @@ def test_the_general_test_for_ill_posedness_says_the_same(law, state):
     assert ours.coefficient == pytest.approx(general.coefficient, rel=1e-6)
     assert ours.bound == pytest.approx(general.bound, rel=1e-6, abs=1e-9)
     np.testing.assert_allclose(np.abs(general.direction), ours.direction, atol=1e-6)
+
+
+def test_cssm_dilating_so_fast_that_it_has_no_bad_direction_is_well_posed():
+    """|B| > 1 needs mu > 1/2: the directions (e44) do not exist, and the growth is bounded."""
+    law, state = CSSM(0.8, PACKING), BaseState(0.05, 0.55, 0.1)
+    c = coefficients(law, state)
+    assert c.B > 1
+    v = verdict(law, state)
+    assert (v.kind, v.unstable) == ("well-posed", True)
+    assert fastest(c, 1e7)[0] == pytest.approx(v.bound, rel=1e-9)

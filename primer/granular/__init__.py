@@ -6,8 +6,8 @@ from primer.granular.friction import Friction, MuI
 from primer.granular.linearisation import coefficients, linearise
 from primer.granular.materials import DISCS_2011, EXAMPLE_COMPACTION, GLASS_BEADS, GLASS_BEADS_2015, GLASS_BEADS_2017
 from primer.granular.posedness import growth_limit, largest_growth, verdict
-from primer.granular.rheology import CIDR, CSSM, Coulomb, IncompressibleMuI
-from primer.granular.state import BaseState
+from primer.granular.rheology import CIDR, CSSM, Ansatz, Coulomb, IncompressibleMuI
+from primer.granular.state import BaseState, admit
 
 __all__ = [
     "CIDR",
@@ -17,12 +17,14 @@ __all__ = [
     "GLASS_BEADS",
     "GLASS_BEADS_2015",
     "GLASS_BEADS_2017",
+    "Ansatz",
     "BaseState",
     "Compaction",
     "Coulomb",
     "Friction",
     "IncompressibleMuI",
     "MuI",
+    "admit",
     "coefficients",
     "conditions",
     "critical_state",

@@ -102,19 +102,19 @@ class Friction:
 
     def alpha(self, I):
         """alpha(I) of eq. (Cmu-formulas-for-alpha)."""
-        return 0.8 * self.mu(I) + 0.48 * _mean(self.mu, I, -3 / 5)
+        return 0.8 * self.mu(np.asarray(I)) + 0.48 * _mean(self.mu, I, -3 / 5)
 
     def beta(self, I):
         """beta(I) of eq. (Cmu-formulas-for-beta)."""
-        return -0.4 * self.mu(I) + 0.96 * _mean(self.mu, I, -3 / 5)
+        return -0.4 * self.mu(np.asarray(I)) + 0.96 * _mean(self.mu, I, -3 / 5)
 
     def dalpha(self, I):
         """alpha'(I)."""
-        return 0.8 * self.dmu(I) + 0.48 * _mean(self.dmu, I, 2 / 5)
+        return 0.8 * self.dmu(np.asarray(I)) + 0.48 * _mean(self.dmu, I, 2 / 5)
 
     def dbeta(self, I):
         """beta'(I)."""
-        return -0.4 * self.dmu(I) + 0.96 * _mean(self.dmu, I, 2 / 5)
+        return -0.4 * self.dmu(np.asarray(I)) + 0.96 * _mean(self.dmu, I, 2 / 5)
 
 
 def as_friction(law):
@@ -174,8 +174,8 @@ def _mean(g, I, power):
     """int_0^1 s^power g(s I) ds for power > -1, of the shape of I."""
     I = inertial("I", I)
     weights = _W * np.exp(-(power + 1) * _Y)
-    blocks = [
-        np.asarray(g(np.multiply.outer(part, np.exp(-_Y)))) @ weights
-        for part in np.array_split(I.ravel(), max(1, I.size // 4096))
-    ]
-    return np.concatenate(blocks).reshape(I.shape)
+    blocks = []
+    for part in np.array_split(I.ravel(), max(1, I.size // 4096)):  # a few MB at a time
+        below = np.multiply.outer(part, np.exp(-_Y))
+        blocks.append(np.broadcast_to(g(below), below.shape) @ weights)
+    return np.concatenate(blocks).reshape(I.shape)[()]
