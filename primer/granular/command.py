@@ -15,8 +15,16 @@ from primer.granular.state import BaseState
 LAWS = ("coulomb", "mui", "cssm", "cidr")
 
 
-def add_arguments(parser):
-    """The options of ``primer granular`` on an argparse parser."""
+def add_command(commands):
+    """Add ``granular`` to the command line's argparse subparsers."""
+    parser = commands.add_parser(
+        "granular",
+        help="is a granular rheology well posed at a base state?",
+        description="Report the hypotheses of the well-posedness theorem, the verdict, and the limit of the largest "
+        "growth rate as |xi| -> infinity, for one of four granular laws frozen at a base state (sections 2 to 4).",
+        epilog="example: primer granular --law cidr --phi 0.55 --p 0.2 --I 0.1",
+        allow_abbrev=False,
+    )
     friction, packing = GLASS_BEADS.friction, EXAMPLE_COMPACTION
     parser.add_argument("--law", required=True, choices=LAWS, help="Coulomb, incompressible mu(I), CSSM or CIDR")
     parser.add_argument("--p", type=float, required=True, help="pressure, in any unit (that of C0)")
@@ -32,13 +40,12 @@ def add_arguments(parser):
     parser.add_argument("--eps", type=float, default=packing.eps, help="width of the range of phi (default: 0.1)")
     parser.add_argument("--C0", type=float, default=packing.C0, help="scale of C(phi), a pressure (default: 1)")
     parser.add_argument("--json", action="store_true", help="print one JSON object")
+    parser.set_defaults(command=_run)
 
 
-def run(options):
-    """Print the report for parsed options; ValueError or TypeError for what is not physical."""
+def _run(options):
     answer = report(**{name: value for name, value in vars(options).items() if name in _NAMES})
-    print(json.dumps(answer, indent=1) if options.json else text(answer))
-    return 0
+    return json.dumps(answer, indent=1) if options.json else text(answer)
 
 
 def report(law, p, phi, I, d=1.0, rho=1.0, mu1=None, mu2=None, I0=None, mu=None, phi0=None, eps=None, C0=None):
