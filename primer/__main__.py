@@ -6,6 +6,7 @@ import math
 import sys
 
 from primer import __version__
+from primer.granular.command import add_command as add_granular
 
 
 def main(arguments=None):
@@ -26,6 +27,7 @@ def _parser():
     parser.add_argument("--version", action="version", version=f"primer {__version__}")
     commands = parser.add_subparsers(metavar="COMMAND", required=True)
     _add_verdict(commands)
+    add_granular(commands)
     return parser
 
 

@@ -1,1 +1,37 @@
 """Granular rheologies under the same test: Coulomb, mu(I), CSSM and CIDR (sections 2 to 4 of the paper)."""
+
+from primer.granular.compaction import Compaction
+from primer.granular.criteria import conditions, critical_state, incompressible_criterion, neutral_inertial_numbers
+from primer.granular.friction import Friction, MuI
+from primer.granular.linearisation import coefficients, linearise
+from primer.granular.materials import DISCS_2011, EXAMPLE_COMPACTION, GLASS_BEADS, GLASS_BEADS_2015, GLASS_BEADS_2017
+from primer.granular.posedness import growth_limit, largest_growth, verdict
+from primer.granular.rheology import CIDR, CSSM, Ansatz, Coulomb, IncompressibleMuI
+from primer.granular.state import BaseState, admit
+
+__all__ = [
+    "CIDR",
+    "CSSM",
+    "DISCS_2011",
+    "EXAMPLE_COMPACTION",
+    "GLASS_BEADS",
+    "GLASS_BEADS_2015",
+    "GLASS_BEADS_2017",
+    "Ansatz",
+    "BaseState",
+    "Compaction",
+    "Coulomb",
+    "Friction",
+    "IncompressibleMuI",
+    "MuI",
+    "admit",
+    "coefficients",
+    "conditions",
+    "critical_state",
+    "growth_limit",
+    "incompressible_criterion",
+    "largest_growth",
+    "linearise",
+    "neutral_inertial_numbers",
+    "verdict",
+]

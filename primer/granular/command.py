@@ -1,0 +1,140 @@
+"""``primer granular``: the hypotheses, the verdict and the limit of a granular law at a base state."""
+
+import json
+import math
+
+from primer.granular.compaction import Compaction
+from primer.granular.criteria import conditions, incompressible_criterion, neutral_inertial_numbers
+from primer.granular.friction import MuI
+from primer.granular.linearisation import coefficients
+from primer.granular.materials import EXAMPLE_COMPACTION, GLASS_BEADS
+from primer.granular.posedness import growth_limit, verdict
+from primer.granular.rheology import CIDR, CSSM, Coulomb, IncompressibleMuI
+from primer.granular.state import BaseState
+
+LAWS = ("coulomb", "mui", "cssm", "cidr")
+
+
+def add_command(commands):
+    """Add ``granular`` to the command line's argparse subparsers."""
+    parser = commands.add_parser(
+        "granular",
+        help="is a granular rheology well posed at a base state?",
+        description="Report the hypotheses of the well-posedness theorem, the verdict, and the limit of the largest "
+        "growth rate as |xi| -> infinity, for one of four granular laws frozen at a base state (sections 2 to 4).",
+        epilog="example: primer granular --law cidr --phi 0.55 --p 0.2 --I 0.1",
+        allow_abbrev=False,
+    )
+    friction, packing = GLASS_BEADS.friction, EXAMPLE_COMPACTION
+    parser.add_argument("--law", required=True, choices=LAWS, help="Coulomb, incompressible mu(I), CSSM or CIDR")
+    parser.add_argument("--p", type=float, required=True, help="pressure, in any unit (that of C0)")
+    parser.add_argument("--phi", type=float, required=True, help="solids fraction")
+    parser.add_argument("--I", type=float, required=True, help="inertial number")
+    parser.add_argument("--d", type=float, default=1.0, help="particle diameter (default: 1)")
+    parser.add_argument("--rho", type=float, default=1.0, help="density of the grains (default: 1)")
+    parser.add_argument("--mu1", type=float, default=friction.mu1, help="mu as I -> 0 (default: tan 21°)")
+    parser.add_argument("--mu2", type=float, default=friction.mu2, help="mu as I -> infinity (default: tan 33°)")
+    parser.add_argument("--I0", type=float, default=friction.I0, help="scale of mu(I) (default: 0.279)")
+    parser.add_argument("--mu", type=float, help="mu of Coulomb and CSSM (default: mu(I) at the state)")
+    parser.add_argument("--phi0", type=float, default=packing.phi0, help="random loose packing (default: 0.5)")
+    parser.add_argument("--eps", type=float, default=packing.eps, help="width of the range of phi (default: 0.1)")
+    parser.add_argument("--C0", type=float, default=packing.C0, help="scale of C(phi), a pressure (default: 1)")
+    parser.add_argument("--json", action="store_true", help="print one JSON object")
+    parser.set_defaults(command=_run)
+
+
+def _run(options):
+    answer = report(**{name: value for name, value in vars(options).items() if name in _NAMES})
+    return json.dumps(answer, indent=1) if options.json else text(answer)
+
+
+def report(law, p, phi, I, d=1.0, rho=1.0, mu1=None, mu2=None, I0=None, mu=None, phi0=None, eps=None, C0=None):
+    """What can be said of a law at a base state, as a dict of plain values (None for what is infinite, of either sign).
+
+    ``law`` is one of LAWS; the other names are those of ``MuI``, ``Compaction`` and ``BaseState``, glass beads and
+    ``EXAMPLE_COMPACTION`` where left out.
+    """
+    if law not in LAWS:
+        raise ValueError(f"law must be one of {', '.join(LAWS)}, got {law!r}")
+    beads, packing = GLASS_BEADS.friction, EXAMPLE_COMPACTION
+    friction = MuI(_or(mu1, beads.mu1), _or(mu2, beads.mu2), _or(I0, beads.I0))
+    compaction = Compaction(_or(phi0, packing.phi0), _or(eps, packing.eps), _or(C0, packing.C0))
+    state = BaseState(p, phi, I, d, rho)
+    constant = _or(mu, float(friction.mu(I)))
+    made = {
+        "coulomb": lambda: Coulomb(constant),
+        "mui": lambda: IncompressibleMuI(friction),
+        "cssm": lambda: CSSM(constant, compaction),
+        "cidr": lambda: CIDR(friction, compaction),
+    }[law]()
+    c, holds, v = coefficients(made, state), conditions(made, state), verdict(made, state)
+    answer = {
+        "law": repr(made),
+        "state": {"p": state.p, "phi": state.phi, "I": state.I, "d": state.d, "rho": state.rho},
+        "D": float(state.D),
+        "tau": float(c.tau),
+        "div_u": float(state.div_u(made)),
+        "B": float(holds.B),
+        "C": float(holds.C),
+        "equality": bool(holds.equality),
+        "Y_I": float(holds.Y_I),
+        "a": bool(holds.a),
+        "slope": float(holds.slope),
+        "b": bool(holds.b),
+        "verdict": str(v.kind),
+        "exponent": str(v.exponent),
+        "coefficient": _finite(v.coefficient),
+        "direction": list(v.direction),
+        "bound": _finite(v.bound),
+        "unstable": v.unstable,
+        "limit": _finite(growth_limit(made, state)),
+        "reason": v.reason,
+    }
+    if law == "mui":
+        says = incompressible_criterion(friction, I)
+        answer |= {"n": float(says.n), "criterion_C": float(says.C)}
+        answer["neutral_I"] = [float(value) for value in neutral_inertial_numbers(friction)]
+    return answer
+
+
+def text(answer):
+    """The report as lines to read."""
+    state = ", ".join(f"{name} = {value:g}" for name, value in answer["state"].items())
+    lines = [
+        f"{answer['law']}",
+        f"at {state}: ||D|| = {answer['D']:.6g}, ||tau|| = {answer['tau']:.6g}, div u = {answer['div_u']:.6g}",
+        "",
+        "hypotheses of the theorem",
+        f"  Y_p - I/(2p) Y_I = f + I f_I   {_says(answer['equality'])}   {answer['B']:.6g} and {answer['C']:.6g}",
+        f"  (a) Y_I > 0                    {_says(answer['a'])}   {answer['Y_I']:.6g}",
+        f"  (b) f_p - I/(2p) f_I < 0       {_says(answer['b'])}   {answer['slope']:.6g}",
+    ]
+    if "neutral_I" in answer:
+        roots = ", ".join(f"{value:.10g}" for value in answer["neutral_I"]) or "none"
+        lines += [
+            "criterion of the incompressible mu(I)-rheology: C <= 0 or n >= 1/2",
+            f"  C = {answer['criterion_C']:.6g}, n = {answer['n']:.6g}; neutral inertial numbers: {roots}",
+        ]
+    unbounded = "infinity" if answer["verdict"] == "ill-posed" else "-infinity"
+    limit = unbounded if answer["limit"] is None else f"{answer['limit']:.12g}"
+    lines += [
+        "",
+        f"{answer['verdict']}: {answer['reason']}.",
+        f"limit of the largest growth rate as |xi| -> infinity: {limit}",
+    ]
+    return "\n".join(lines)
+
+
+_NAMES = ("law", "p", "phi", "I", "d", "rho", "mu1", "mu2", "I0", "mu", "phi0", "eps", "C0")
+
+
+def _or(value, default):
+    return default if value is None else value
+
+
+def _finite(value):
+    return float(value) if math.isfinite(value) else None
+
+
+def _says(holds):
+    return "holds" if holds else "fails"
