@@ -61,6 +61,6 @@ def draw(rows):
         row[3].set_ylabel(r"growth rate$\,/\,\|D\|$", fontsize=8.5)
     axes[0, 3].set_title("measured (markers), symbol (line)", fontsize=9.5)
     axes[0, 3].legend(loc="upper left", fontsize=8, handletextpad=0.2)
-    text = "$|\\xi|\\, d$; dotted: where each grid ends; below the\nline: no mode lies in the best direction"
+    text = "$|\\xi|\\, d$; dotted: where each\ngrid ends. Below the line: no\nmode in the best direction"
     axes[3, 3].set_xlabel(text, fontsize=8.5)
     return figure
