@@ -2,6 +2,7 @@
 
 import ast
 import re
+import shlex
 import subprocess
 import sys
 from pathlib import Path
@@ -9,6 +10,7 @@ from pathlib import Path
 import pytest
 
 import primer
+from primer.__main__ import main
 
 ROOT = Path(__file__).parents[1]
 MODULES = sorted((ROOT / "primer").rglob("*.py"))
@@ -97,3 +99,10 @@ def test_versions_agree():
     assert re.fullmatch(r"\d+\.\d+\.\d+", primer.__version__)
     assert f"## {primer.__version__}" in (ROOT / "CHANGELOG.md").read_text(encoding="utf-8")
     assert f"version: {primer.__version__}" in (ROOT / "CITATION.cff").read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize("block", re.findall(r"```console\n\$ primer (.*?)```", readme(), flags=re.S))
+def test_readme_shows_what_the_commands_print(block, capsys):
+    command, shown = block.split("\n", 1)
+    assert main(shlex.split(command)) == 0
+    assert capsys.readouterr().out == shown
