@@ -159,3 +159,28 @@ def test_dilating_and_contracting_soil():
 def test_bad_input_is_named(make, error, word):
     with pytest.raises(error, match=word):
         make()
+
+
+def test_the_number_of_space_variables_is_seen():
+    assert Pencil(lambda xi: [[xi**2]], [[1]]).dim == 1
+    assert Pencil(lambda xi: [[xi[0] ** 2 - xi[1] ** 2]], [[1]]).dim == 2
+
+    def unpacking(xi):
+        xi1, xi2 = xi
+        return [[xi1**2 + xi2]]
+
+    assert Pencil(unpacking, [[1]]).dim == 2
+    assert growth(Pencil(unpacking, [[1]]), [1.0, 2.0]) == pytest.approx(-3)
+
+
+def test_sympy_matrices_are_symbols():
+    import sympy
+
+    xi = sympy.Symbol("xi", real=True)
+    pencil = Pencil(sympy.Matrix([[0, -sympy.I * xi], [-sympy.I * xi, 1]]), sympy.eye(2))
+    np.testing.assert_allclose(growth(pencil, [0.0, 10.0]), [0, -0.5], atol=1e-12)
+    xi1, xi2 = sympy.symbols("xi_1 xi_2")
+    plane = Pencil(sympy.Matrix([[xi1**2 - xi2]]), sympy.eye(1))
+    np.testing.assert_allclose(growth(plane, [[1.0, 2.0], [5.0, 0.0]]), [4, -4])
+    with pytest.raises(ValueError, match="S must be a matrix in xi, or in xi_1 and xi_2, alone, got symbols a, xi"):
+        Pencil(sympy.Matrix([[sympy.Symbol("a") * xi]]), sympy.eye(1))

@@ -16,7 +16,7 @@ class Pencil:
 
     Parameters
     ----------
-    S : callable, or constant array
+    S : callable, constant array, or sympy Matrix in the symbols xi, or xi_1 and xi_2
         ``S(xi)`` is the k x k symbol. In one space variable xi is a number or an array of shape s; in two it has its
         component axis *first*, shape (2,) + s, so that ``xi1, xi2 = xi`` works for one wavevector and for many. S
         returns shape s + (k, k); one that can only serve a single wavevector (a nested list of scalars, say) is called
@@ -24,7 +24,7 @@ class Pencil:
     E : array of shape (k, k), or a callable of xi like S
         the coefficients of the time derivatives. It may be singular: a row of zeros is a constraint (div u = 0).
     dim : int
-        the number of space variables, 1 or 2
+        the number of space variables, 1 or 2; left out, it is 1 if S can be called with a number, else 2
 
     Raises
     ------
@@ -34,11 +34,15 @@ class Pencil:
 
     S: Callable | np.ndarray
     E: Callable | np.ndarray
-    dim: int = 1
+    dim: int | None = None
     size: int = field(init=False)
 
     def __post_init__(self):
-        object.__setattr__(self, "dim", integer("dim", self.dim, least=1, most=2))
+        for name in ("S", "E"):
+            if hasattr(getattr(self, name), "free_symbols"):
+                object.__setattr__(self, name, _from_sympy(name, getattr(self, name)))
+        dim = _dimension(self.S) if self.dim is None else integer("dim", self.dim, least=1, most=2)
+        object.__setattr__(self, "dim", dim)
         for name in ("S", "E"):
             if not callable(getattr(self, name)):
                 object.__setattr__(self, name, _square(name, getattr(self, name)))
@@ -120,6 +124,39 @@ def growth(pencil, xi):
     """
     lam = pencil.eigenvalues(xi)
     return lam[..., 0].real if pencil.count else np.full(lam.shape[:-1], -np.inf)
+
+
+def _dimension(S):
+    """1 unless S cannot be called with a number but can with a pair of them."""
+    for dim, xi in ((1, np.float64(1.1)), (2, np.array([1.1, -0.7]))):
+        try:
+            if callable(S):
+                S(xi)
+        except Exception:  # S is somebody's function: whatever it makes of a number it was not written for
+            continue
+        return dim
+    return 1  # whose call will say what is wrong
+
+
+def _from_sympy(name, matrix):
+    """A sympy matrix in xi, or in xi_1 and xi_2, as a function of one wavevector; an array if it is constant."""
+    import sympy
+
+    matrix = matrix.subs({symbol: sympy.Symbol(symbol.name) for symbol in matrix.free_symbols})  # without assumptions
+    names = sorted(symbol.name for symbol in matrix.free_symbols)
+    if not names:
+        return np.array(matrix.tolist(), dtype=complex)
+    if set(names) <= {"xi"}:
+        return sympy.lambdify(sympy.Symbol("xi"), matrix.tolist(), "numpy")
+    if set(names) <= {"xi_1", "xi_2"}:
+        by_component = sympy.lambdify(sympy.symbols("xi_1 xi_2"), matrix.tolist(), "numpy")
+        return lambda xi: by_component(*_pair(xi))
+    raise ValueError(f"{name} must be a matrix in xi, or in xi_1 and xi_2, alone, got symbols {', '.join(names)}")
+
+
+def _pair(xi):
+    xi1, xi2 = xi
+    return xi1, xi2
 
 
 def _square(name, value):
