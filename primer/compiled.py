@@ -18,3 +18,16 @@ def compiled(module):
 @cache
 def _say(why):
     warnings.warn(f"numba is not here ({why}): results are the same, but slower", RuntimeWarning, stacklevel=5)
+
+
+def jit(function):
+    """``function`` as machine code that lets go of the interpreter.
+
+    It is cached on disk: beside its source, in the user's cache where that is read-only, or nowhere if both are.
+    """
+    import numba
+
+    try:
+        return numba.njit(cache=True, nogil=True)(function)
+    except RuntimeError:  # no folder to write to
+        return numba.njit(nogil=True)(function)

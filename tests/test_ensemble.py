@@ -95,3 +95,19 @@ def test_bad_input_gets_one_sentence(problems, options, error, sentence):
     with pytest.raises(error) as caught:
         ftcs_ensemble(problems, **options)
     assert str(caught.value).startswith(sentence)
+
+
+def test_without_a_folder_to_write_the_loop_is_compiled_all_the_same(monkeypatch):
+    import numba
+
+    from primer.compiled import jit
+
+    njit = numba.njit
+
+    def nowhere(*function, cache=False, **options):
+        if cache:
+            raise RuntimeError("cannot cache function: no locator available")  # numba's words
+        return njit(*function, **options)
+
+    monkeypatch.setattr(numba, "njit", nowhere)
+    assert jit(lambda x: x + 1)(2) == 3

@@ -14,6 +14,7 @@ import zlib
 import numba
 import numpy as np
 
+from primer.compiled import jit
 from primer.problems.toy import tendency
 
 _tendency = numba.njit(tendency, inline="always")
@@ -68,7 +69,7 @@ def _look(u, v, u_inf, m, r1, dt, far, drift, step, every, clock, dist2, u_min, 
 
 
 def _compile(equation, members):
-    @numba.njit(cache=True, nogil=True)
+    @jit
     def march(w, sin_x, u_inf, r1, r2, dt, eps, far, drift, clock, until, every, dist2, u_min, shot_steps, shots):
         """Advance ``members`` systems side by side to step ``until``, or until all have blown up (Dist > far).
 

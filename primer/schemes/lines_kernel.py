@@ -8,6 +8,7 @@ import zlib
 import numba
 import numpy as np
 
+from primer.compiled import jit
 from primer.problems.toy import tendency
 
 _tendency = numba.njit(tendency, inline="always")
@@ -16,7 +17,7 @@ _EQUATION = zlib.crc32(tendency.__code__.co_code + repr(tendency.__code__.co_con
 
 
 def _compile(equation):
-    @numba.njit(cache=True)
+    @jit
     def march(y, sin_x, eps, d1, d2, A, b, dt, counts, limit, states, depth):
         """Take counts[m] steps dt[m] for m = 0, 1, ..., as long as |u|, |v| <= limit at the end of each step.
 
