@@ -9,6 +9,8 @@ import numpy as np
 from primer.analysis.eigen import degree, finite_eigenvalues
 from primer.checks import integer, real_array
 
+LARGEST = 12  # the number of finite eigenvalues is found by an expansion of 2^k terms
+
 
 @dataclass(frozen=True)
 class Pencil:
@@ -50,6 +52,8 @@ class Pencil:
         object.__setattr__(self, "size", len(single))
         if _square("S", self.S(self._probe[..., 0]) if callable(self.S) else self.S).shape != single.shape:
             raise ValueError("S and E must be square matrices of the same size")
+        if self.size > LARGEST:
+            raise ValueError(f"S and E must be no larger than {LARGEST} x {LARGEST}, got {self.size} x {self.size}")
         if self.count < 0:
             raise ValueError(
                 "the pencil is singular: det(lambda E + S) vanishes identically, so the equations do not determine the "
