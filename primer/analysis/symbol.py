@@ -24,12 +24,10 @@ class Symbol:
     entries : tuple of tuples of polynomials {(n, a, b): c} in lambda and the derivatives (d/dx, d/dy) = i xi: the
         coefficients of time derivatives of order n and space derivatives of orders a and b
     dim : int       the number of space variables
-    zero : float    the relative size below which a sum of cancelling coefficients counts as zero
     """
 
     entries: tuple
     dim: int = 1
-    zero: float = ZERO
 
     @cached_property
     def determinant(self):
@@ -37,7 +35,7 @@ class Symbol:
         with mp.workdps(DIGITS):
             i = mp.mpc(0, 1)
             rows = [[{p: c * i ** (p[1] + p[2]) for p, c in entry.items()} for entry in row] for row in self.entries]
-            return determinant(rows, self.zero)
+            return determinant(rows, ZERO)
 
     def pencil(self, multiplier=None):
         """The symbol as numbers: a :class:`Pencil`, with extra unknowns that stand for u_t where u_tt occurs.
