@@ -37,7 +37,10 @@ def supremum(symbol, law, real):
         n, m = np.unravel_index(place, rate.shape)
         # What double precision takes for growth, or for none, may be rounding: ask with more digits.
         exact = exact_growth(symbol, _wavevector(symbol.dim, s[n], angle[m]))
+        best_so_far = max(value for value, _ in values)
         values.append((exact, 10.0 ** s[n]))
+        if exact < best_so_far - 0.5 * (abs(exact) + abs(best_so_far)):
+            continue  # no maximum can be so much higher than the scan's nearest place
         if followed < PLACES and rate[n, m] != 0 and abs(exact - rate[n, m]) <= 1e-3 * abs(exact):
             best = _followed(pencil, s[n], angle[m], s[1] - s[0], np.pi / angles)
             values += _sharpened(symbol, *best)
@@ -72,7 +75,7 @@ def _followed(pencil, s, angle, width, turn):
     """(s, angle) moved uphill by ever finer scans of its neighbourhood."""
     steps = np.linspace(-1, 1, 5)
     turns = steps if pencil.dim == 2 else np.zeros(1)
-    for _ in range(45):
+    for _ in range(30):
         rate = _rates(pencil, s + width * steps[:, None], angle + turn * turns)
         n, m = np.unravel_index(np.argmax(rate), rate.shape)
         if rate[n, m] > rate[2, len(turns) // 2]:
