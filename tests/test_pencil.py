@@ -6,6 +6,7 @@ Second routes: closed forms, and eigenvalues from multiprecision polynomial root
 import mpmath as mp
 import numpy as np
 import pytest
+import sympy
 
 from primer import Pencil, growth, max_growth
 
@@ -174,13 +175,13 @@ def test_the_number_of_space_variables_is_seen():
 
 
 def test_sympy_matrices_are_symbols():
-    import sympy
-
     xi = sympy.Symbol("xi", real=True)
     pencil = Pencil(sympy.Matrix([[0, -sympy.I * xi], [-sympy.I * xi, 1]]), sympy.eye(2))
     np.testing.assert_allclose(growth(pencil, [0.0, 10.0]), [0, -0.5], atol=1e-12)
     xi1, xi2 = sympy.symbols("xi_1 xi_2")
     plane = Pencil(sympy.Matrix([[xi1**2 - xi2]]), sympy.eye(1))
     np.testing.assert_allclose(growth(plane, [[1.0, 2.0], [5.0, 0.0]]), [4, -4])
+    pseudo = Pencil(sympy.Matrix([[xi**2]]), sympy.Matrix([[1 + xi**2]]))
+    assert growth(pseudo, 3.0) == pytest.approx(-0.9)
     with pytest.raises(ValueError, match="S must be a matrix in xi, or in xi_1 and xi_2, alone, got symbols a, xi"):
         Pencil(sympy.Matrix([[sympy.Symbol("a") * xi]]), sympy.eye(1))

@@ -100,13 +100,13 @@ def test_verdict(name):
 @pytest.mark.parametrize("name", [name for name, case in CASES.items() if case[3] == WELL and "_y" not in case[0]])
 def test_no_computed_growth_exceeds_the_bound(name):
     text, at, parameters, *_ = CASES[name]
-    k = np.geomspace(1e-4, 1e4, 4000)
+    k = np.geomspace(1e-4, 1e4, 1500)
     rates = growth_rates(text, np.concatenate([-k, k]), at=at, **parameters)
     bound = verdict(text, at=at, **parameters).bound
     real = np.where(np.abs(rates.real) < 1e-7 * np.abs(rates), 0, rates.real)  # double roots have half the digits
     assert np.nanmax(real) <= bound + 1e-9
     if bound > 0:
-        assert np.nanmax(real) > 0.9999 * bound
+        assert np.nanmax(real) > 0.999 * bound
 
 
 def test_turing_bound():

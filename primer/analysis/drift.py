@@ -13,12 +13,13 @@ from itertools import combinations, pairwise
 import mpmath as mp
 import numpy as np
 
-from primer.analysis.puiseux import Law, branches, hull_of, shifted_by
-from primer.analysis.roots import DIGITS, resultant, roots
+from primer.analysis.puiseux import Law, branches, collected, hull_of, shifted_by
+from primer.analysis.roots import DIGITS, ZERO, resultant, roots
 
 DEPTH = 2  # drifts within drifts
 LAST = -3  # terms of branches below k^LAST are left out
 SAMPLES = 25  # values of tau to begin with
+REAL = mp.sqrt(ZERO)  # relative imaginary part below which a root is real, and difference below which two are one
 
 
 @dataclass(frozen=True)
@@ -30,7 +31,7 @@ class Worst:
     drift: Fraction
 
 
-def worst_law(D, zero, real, hints=()):
+def worst_law(D, real, hints=()):
     """The fastest law of det M = D(lambda, xi_1, xi_2), a polynomial {(n, a, b): c}, over all directions.
 
     ``real``: the equations have real coefficients, so that half of the directions tell all. ``hints`` are angles near
@@ -41,7 +42,7 @@ def worst_law(D, zero, real, hints=()):
         for sign in (1,) if real else (1, -1):
             along_x = {(n, Fraction(a + b), b): c * sign ** (a + b) for (n, a, b), c in D.items()}
             along_y = {(n, Fraction(a + b), a): c * sign ** (a + b) for (n, a, b), c in D.items()}
-            search = _Search(zero, hints)
+            search = _Search(hints)
             search.family(along_x, Fraction(0), DEPTH, None)
             search.near(along_y, Fraction(0), DEPTH, mp.inf)
             for slope in (0, 1, -1):
@@ -63,18 +64,12 @@ def _plainness(item):
 class _Search:
     """Laws of polynomials F = {(i, j, l): c}, meaning c lambda^i k^j t^l, on curves t = tau k^{-r}."""
 
-    def __init__(self, zero, hints):
-        self.zero, self.real, self.hints, self.found = zero, mp.sqrt(zero), hints, []
+    def __init__(self, hints):
+        self.hints, self.found = hints, []
 
     def law(self, F, r, tau):
-        P = {}
-        for (i, j, l), c in F.items():
-            P[i, j - r * l] = P.get((i, j - r * l), 0) + c * tau**l
-        size = {}
-        for (i, j, l), c in F.items():
-            size[i, j - r * l] = size.get((i, j - r * l), 0) + abs(c * tau**l)
-        P = {power: c for power, c in P.items() if abs(c) > self.zero * size[power]}
-        found = branches(P, self.zero, self.last())
+        P = collected((((i, j - r * l), c * tau**l) for (i, j, l), c in F.items()))
+        found = branches(P, self.last())
         return found[0].law if found else Law(Fraction(0), -float("inf"))
 
     def last(self):
@@ -109,7 +104,8 @@ class _Search:
             self.add(self.law(F, r, value(s)), slope, r)
         for tau in self.special(F, r, self.best()):
             if depth and (slope is None or tau != 0):
-                self.near(_moved(F, tau, r, self.zero), r, depth - 1, tau if slope is None else slope)
+                moved = shifted_by(F, tau, -r, 2)
+                self.near(moved, r, depth - 1, tau if slope is None else slope)
 
     def near(self, F, r, depth, slope):
         """t = 0 itself, and t = tau k^{-r'} with r' > r."""
@@ -120,17 +116,17 @@ class _Search:
         for imaginary in {terms[:n] for terms in self._imaginary(P) for n in range(1, len(terms) + 1)}:
             moved = F
             for q, c in imaginary:
-                moved = shifted_by(moved, c, q, 0, self.zero)
+                moved = shifted_by(moved, c, q, 0)
             exponents |= _facets(moved)
         for r2 in sorted(exponents):
             if r2 > r:
                 self.family(F, r2, depth, slope)
 
     def _imaginary(self, P):
-        """The purely imaginary terms with which the branches at t = 0 begin, but for the last term known."""
+        """The purely imaginary terms, up to two, with which the branches at t = 0 begin."""
         found = set()
-        for branch in branches(P, self.zero, LAST):
-            terms = tuple((q, 1j * c.imag) for q, c in branch.terms if abs(c.real) <= self.zero * abs(c))
+        for branch in branches(P, LAST):
+            terms = tuple((q, 1j * c.imag) for q, c in branch.terms if abs(c.real) <= ZERO * abs(c))
             found.add(terms[:2])
         return found
 
@@ -149,31 +145,26 @@ class _Search:
         for (i, j), (i2, j2) in pairwise(hull):
             q = (j - j2) / (i2 - i)
             edge = [family.get((n, j - q * (n - i)), [mp.mpc(0)]) for n in range(i, i2 + 1)]
-            found += _real_roots(edge[0], self.zero) + _real_roots(edge[-1], self.zero)
+            found += _real_roots(edge[0]) + _real_roots(edge[-1])
             if best.coefficient > 0 and q <= best.exponent:
                 continue
             mirror = [[mp.conj(c) * (-1) ** n for c in p] for n, p in enumerate(edge)]
-            meeting = resultant(edge, mirror, self.zero)
+            meeting = resultant(edge, mirror)
             if not meeting:  # purely imaginary throughout: then where branches meet
                 slope = [[n * c for c in p] for n, p in enumerate(edge)][1:]
-                meeting = resultant(edge, slope, self.zero) if len(slope) > 1 else []
-            found += _real_roots(meeting, self.zero)
+                meeting = resultant(edge, slope) if len(slope) > 1 else []
+            found += _real_roots(meeting)
         distinct = []
-        for tau in sorted(tau if abs(tau) > self.real else mp.mpf(0) for tau in found):
-            if not distinct or abs(tau - distinct[-1]) > self.real * (1 + abs(tau)):
+        for tau in sorted(tau if abs(tau) > REAL else mp.mpf(0) for tau in found):
+            if not distinct or abs(tau - distinct[-1]) > REAL * (1 + abs(tau)):
                 distinct.append(tau)
         return distinct
 
 
-def _real_roots(p, zero):
+def _real_roots(p):
     if sum(c != 0 for c in p) < 2:
         return [mp.mpf(0)] if len(p) > 1 and p[0] == 0 else []
-    return [z.real for z, _ in roots(p, zero) if abs(mp.im(z)) <= mp.sqrt(zero) * (1 + abs(z))]
-
-
-def _moved(F, tau, r, zero):
-    """F with t = tau k^{-r} + a new t."""
-    return shifted_by(F, tau, -r, 2, zero)
+    return [z.real for z, _ in roots(p) if abs(mp.im(z)) <= REAL * (1 + abs(z))]
 
 
 def _facets(F):

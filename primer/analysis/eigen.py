@@ -9,6 +9,9 @@ to each entry, however different their sizes. See Bini & Noferini, Linear Algebr
 
 import numpy as np
 
+from primer.analysis.determinant import determinant
+
+CANCELLED = 1e-12  # relative size below which a coefficient of the determinant is only rounding
 EPS = np.finfo(float).eps
 TINY = 1e-150  # the square of its inverse is still a number
 LOST = 1e50  # an iterate this large is on its way to infinity
@@ -31,32 +34,24 @@ def finite_eigenvalues(S, E, n):
     solvable = n == S.shape[-1] and (np.abs(np.linalg.det(_scaled(E)[0])) > 1e-12).all()
     regular = np.full(len(S), True) if solvable else ~_singular(S, E)
     if n and regular.any():
-        lam[regular] = _polished(S[regular], E[regular], _start(S[regular], E[regular], n, solvable))
+        S, E = S[regular], E[regular]
+        found = _start(S, E, n, solvable)
+        lam[regular] = _told_apart(S, E, _polished(S, E, found, np.ones(found.shape, dtype=bool)))
     return lam
 
 
 def degree(S, E):
-    """The degree in lambda of det(lambda E + S) for one pencil: the number of its finite eigenvalues, or -1.
-
-    It is the number of zeros inside a large circle, counted by the argument principle. Circles are tried over sixteen
-    decades, and the count that holds over the longest range of radii is taken. -1: the determinant vanishes.
-    """
-    S, E = S[None], E[None]
-    if _singular(S, E)[0]:
-        return -1
-    k = S.shape[-1]
-    if k == np.linalg.matrix_rank(_scaled(E)[0][0]):
-        return k
-    radii = _size(S, E)[0] * np.exp2(np.arange(-8, 46))
-    circle = np.exp(2j * np.pi * (np.arange(32) + 0.3) / 32)
-    lam = (radii[:, None] * circle).reshape(1, -1)
-    zeros = (lam * _log_derivative(S, E, lam)).reshape(len(radii), -1).mean(axis=1)
-    counts = np.where(np.abs(zeros - np.round(zeros.real)) < 1e-2, np.round(zeros.real), -1).astype(int)
-    return int(np.bincount(counts[(counts >= 0) & (counts <= k)]).argmax())
+    """The degree in lambda of det(lambda E + S), the number of finite eigenvalues, for one pencil; -1: it vanishes."""
+    entries = [
+        [{(n,): c for n, c in enumerate(pair) if c} for pair in zip(s, e, strict=True)]
+        for s, e in zip(S.tolist(), E.tolist(), strict=True)
+    ]
+    return max((n for (n,) in determinant(entries, CANCELLED)), default=-1)
 
 
-def _polished(S, E, lam):
-    active, lost = np.ones(lam.shape, dtype=bool), np.zeros(lam.shape, dtype=bool)
+def _polished(S, E, lam, active):
+    """lam after the Ehrlich-Aberth iteration, of those that are ``active`` only."""
+    lost = np.zeros(lam.shape, dtype=bool)
     last = np.full(lam.shape, np.inf)
     for _ in range(STEPS):
         rows = np.flatnonzero(active.any(axis=1))
@@ -71,10 +66,29 @@ def _polished(S, E, lam):
         lam[rows] = np.where(lost[rows], LOST * np.exp(1j * np.arange(now.shape[1])), now - step)
         size = np.abs(step)
         # Stop at rounding level, or when a step no longer shrinks: a zero or a multiple eigenvalue has no better value.
-        done = (size <= 2 * EPS * np.abs(now)) | ((size > last[rows] / 2) & (last[rows] <= 1e-3 * np.abs(now)))
+        done = (size <= 2 * EPS * np.abs(now)) | ((size > last[rows] / 2) & (last[rows] <= 1e-7 * np.abs(now)))
         active[rows] &= ~(done | lost[rows] | (size == 0))
         last[rows] = size
     lam[lost] = np.nan
+    return lam
+
+
+def _told_apart(S, E, lam):
+    """lam with each value that repeats another sought again from elsewhere; if it comes back it is a double one."""
+    i, j = np.tril_indices(lam.shape[1], -1)
+    repeats = np.zeros(lam.shape, dtype=bool)
+    np.logical_or.at(repeats.T, i, (np.abs(lam[:, i] - lam[:, j]) <= 1e-9 * np.abs(lam[:, i])).T)
+    rows = repeats.any(axis=1)
+    if not rows.any():
+        return lam
+    old, again = lam[rows], repeats[rows]
+    # The others divided out, one is left to find, and almost any place will do to begin.
+    away = np.where(old == 0, 1e-3 * _size(S[rows], E[rows])[:, None], old) * (
+        1.37 + 0.41j * np.arange(1, old.shape[1] + 1)
+    )
+    new = _polished(S[rows], E[rows], np.where(again, away, old), again.copy())
+    came_back = np.abs(new - old) <= np.where(old == 0, 1e-30 * np.abs(away), 1e-5 * np.abs(old))
+    lam[rows] = np.where(again & ~came_back & np.isfinite(new), new, old)
     return lam
 
 

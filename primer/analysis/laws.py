@@ -1,12 +1,10 @@
 """Growth laws along one direction, for equations as text or as a pencil."""
 
-from collections import defaultdict
-
 import mpmath as mp
 import numpy as np
 
 from primer.analysis.pencil import Pencil
-from primer.analysis.puiseux import branches
+from primer.analysis.puiseux import branches, collected
 from primer.analysis.recover import recovered
 from primer.analysis.roots import DIGITS
 from primer.analysis.symbol import Symbol
@@ -44,12 +42,8 @@ def growth_laws(pde, /, direction=None, *, at=None, order="full", **parameters):
         d = [mp.mpf(repr(float(x))) for x in d]
         length = mp.sqrt(sum(x**2 for x in d))
         d = [*(x / length for x in d), mp.mpf(1)]
-        P, size = defaultdict(mp.mpc), defaultdict(mp.mpf)
-        for (n, a, b), c in exact.determinant.items():
-            term = c * d[0] ** a * d[1] ** b
-            P[n, a + b] += term
-            size[n, a + b] += abs(term)
-        return branches({power: c for power, c in P.items() if abs(c) > exact.zero * size[power]}, exact.zero)
+        terms = (((n, a + b), c * d[0] ** a * d[1] ** b) for (n, a, b), c in exact.determinant.items())
+        return branches(collected(terms))
 
 
 def exact_symbol(pde, *, at=None, order="full", **parameters):

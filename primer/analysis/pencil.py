@@ -9,8 +9,10 @@ import numpy as np
 from primer.analysis.eigen import degree, finite_eigenvalues
 from primer.checks import integer, real_array
 
+LARGEST = 12  # the number of finite eigenvalues is found by an expansion of 2^k terms
 
-@dataclass(frozen=True)
+
+@dataclass(frozen=True, eq=False)
 class Pencil:
     """Perturbations q e^{i<xi, x> + lambda t} of frozen-coefficient equations: lambda E q = -S(xi) q, as in eq. (e24).
 
@@ -46,10 +48,12 @@ class Pencil:
         for name in ("S", "E"):
             if not callable(getattr(self, name)):
                 object.__setattr__(self, name, _square(name, getattr(self, name)))
-        single = _square("E", self.E(self._probe[..., 0]) if callable(self.E) else self.E)
+        single = _square("E", self.E(self.probe[..., 0]) if callable(self.E) else self.E)
         object.__setattr__(self, "size", len(single))
-        if _square("S", self.S(self._probe[..., 0]) if callable(self.S) else self.S).shape != single.shape:
+        if _square("S", self.S(self.probe[..., 0]) if callable(self.S) else self.S).shape != single.shape:
             raise ValueError("S and E must be square matrices of the same size")
+        if self.size > LARGEST:
+            raise ValueError(f"S and E must be no larger than {LARGEST} x {LARGEST}, got {self.size} x {self.size}")
         if self.count < 0:
             raise ValueError(
                 "the pencil is singular: det(lambda E + S) vanishes identically, so the equations do not determine the "
@@ -57,27 +61,27 @@ class Pencil:
             )
 
     @property
-    def _probe(self):
+    def probe(self):
         """Wavevectors in general position, more of them than the matrices can be wide."""
-        j = np.arange(1, 12)
+        j = np.arange(1, 14)
         xi = np.stack([1.1 + 0.37 * np.sin(2.3 * j), -0.7 + 0.41 * np.cos(1.7 * j)])
         return xi if self.dim == 2 else xi[0]
 
     @cached_property
     def count(self):
         """The number of finite eigenvalues at wavevectors in general position."""
-        S, E = self.matrices(self._probe[..., :3])
+        S, E = self.matrices(self.probe[..., :3])
         return max(degree(s, e) for s, e in zip(S, E, strict=True))
 
     @cached_property
     def is_real(self):
         """Whether the equations have real coefficients: S(-xi) is the conjugate of S(xi), and E likewise."""
-        plus, minus = self.matrices(self._probe), self.matrices(-self._probe)
+        plus, minus = self.matrices(self.probe), self.matrices(-self.probe)
         return all(np.allclose(a, b.conj(), rtol=1e-12, atol=0) for a, b in zip(plus, minus, strict=True))
 
     @cached_property
     def _vectorised(self):
-        return {name: _serves_many(getattr(self, name), self._probe, self.size) for name in ("S", "E")}
+        return {name: _serves_many(getattr(self, name), self.probe, self.size) for name in ("S", "E")}
 
     def matrices(self, xi):
         """(S, E) at wavevectors xi of shape s, or (2,) + s: complex arrays of shape s + (k, k)."""

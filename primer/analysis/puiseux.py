@@ -13,9 +13,6 @@ import mpmath as mp
 
 from primer.analysis.roots import DIGITS, ZERO, roots
 
-LAST = -12
-DEPTH = 60  # nor than so many terms
-
 
 @dataclass(frozen=True)
 class Law:
@@ -50,9 +47,9 @@ class Law:
 
     def is_near(self, other):
         """Whether the two are equal but for rounding of the coefficient."""
-        return self.key[:2] == other.key[:2] and abs(self.coefficient - other.coefficient) <= 1e-12 * abs(
-            other.coefficient
-        )
+        slack = 1e-12 * abs(other.coefficient)
+        near = self.key[:2] == other.key[:2] and abs(self.coefficient - other.coefficient) <= slack
+        return near or self == other
 
 
 @dataclass(frozen=True)
@@ -84,34 +81,50 @@ class Branch:
         return complex(self.terms[0][1]) if self.terms else 0j
 
 
-def branches(P, zero=ZERO, last=LAST):
+def branches(P, last=None):
     """All branches of P(lambda, k) = 0 for k -> infinity, each carried on until its real part is seen.
 
     Parameters
     ----------
     P : dict {(i, j): a}
-    zero : float    the relative size below which a sum of cancelling terms counts as zero
-    last : int      expansions are carried no further than k^last
+    last : int      expansions are carried no further than k^last; by default so far that a real part which has not
+                    shown by then is zero for good
 
     Returns
     -------
-    list of Branch, the fastest growing first. A coefficient of zero in a law means that Re lambda = 0 as far as the
-    expansion was carried, k^last; where ``is_conservative`` or the branch ``is_exact`` it means that for good.
+    list of Branch, the fastest growing first
     """
     with mp.workdps(DIGITS):
         P = {(i, Fraction(j)): mp.mpc(a) for (i, j), a in P.items()}
-        found = list(_expand(P, None, (), is_conservative(P, zero), zero, last)) if P else []
+        if not P:
+            return []
+        last = far_enough(P) if last is None else last
+        found = list(_expand(P, None, (), is_conservative(P), last))
     return sorted(found, key=lambda branch: branch.law, reverse=True)
 
 
-def is_conservative(P, zero=ZERO):
+def far_enough(P):
+    """An exponent q such that Re lambda = o(k^q) on a branch of P means Re lambda = 0 on it.
+
+    Let p be the irreducible factor that the branch belongs to, and p* its mirror image in the imaginary axis. Unless
+    they are the same, their resultant is a polynomial in k, not zero, so at least of order k^0; it is also the product
+    of all differences of their roots, 2 Re lambda among them, and of powers of the leading coefficient. Those have
+    orders bounded by P's degree n in lambda, its largest exponent, and the degree in k of its leading coefficient.
+    """
+    hull = hull_of(P)
+    n, degree = hull[-1]
+    largest = max([(j - j2) / (i2 - i) for (i, j), (i2, j2) in pairwise(hull)], default=0)
+    return -(2 * n * degree + (n**2 - 1) * max(largest, 0))
+
+
+def is_conservative(P):
     """Whether the roots of P(., k) are symmetric about the imaginary axis for every real k."""
     top = max(P)
     ratio = mp.conj(P[top]) * (-1) ** top[0] / P[top]
-    return all(abs(mp.conj(a) * (-1) ** i - ratio * a) <= zero * abs(a) for (i, _), a in P.items())
+    return all(abs(mp.conj(a) * (-1) ** i - ratio * a) <= ZERO * abs(a) for (i, _), a in P.items())
 
 
-def _expand(P, above, terms, conservative, zero, last):
+def _expand(P, above, terms, conservative, last):
     """Branches lambda = (terms) + mu of a polynomial P in mu and k, mu = o(k^above)."""
     hull = hull_of(P)
     if hull[0][0] > 0:  # mu = 0 is a root: the expansion ends here
@@ -121,15 +134,15 @@ def _expand(P, above, terms, conservative, zero, last):
         if above is not None and q >= above:
             break
         edge = [P.get((n, j - q * (n - i)), mp.mpc(0)) for n in range(i, i2 + 1)]
-        for c, multiplicity in roots(edge, zero):
+        for c, multiplicity in roots(edge):
             longer = (*terms, (q, c))
-            if abs(c.real) > zero * abs(c):
+            if abs(c.real) > ZERO * abs(c):
                 yield Branch(longer, multiplicity, False, Law(q, float(c.real)))
-            elif (conservative and multiplicity == 1) or q < last or len(longer) > DEPTH:
+            elif (conservative and multiplicity == 1) or q < last:
                 # A simple branch that agrees with its mirror image in the imaginary axis is its mirror image.
                 yield Branch(longer, multiplicity, False, Law(Fraction(0), 0.0))
             else:
-                yield from _expand(shifted_by(P, 1j * c.imag, q, 0, zero), q, longer, conservative, zero, last)
+                yield from _expand(shifted_by(P, 1j * c.imag, q, 0), q, longer, conservative, last)
 
 
 def hull_of(P):
@@ -149,18 +162,22 @@ def _turns_left(a, b, c):
     return (b[1] - a[1]) * (c[0] - b[0]) <= (c[1] - b[1]) * (b[0] - a[0])
 
 
-def shifted_by(P, c, q, place, zero):
-    """P with the variable in this place of its exponents, z, replaced by c k^q + z; cancelled terms are left out.
-
-    k is the variable in place 1.
-    """
-    value, size = defaultdict(mp.mpc), defaultdict(mp.mpf)
+def shifted_by(P, c, q, place):
+    """P with the variable in this place of its exponents, z, replaced by c k^q + z; k is the variable in place 1."""
+    terms = []
     for powers, a in P.items():
         for n in range(powers[place] + 1):
             m = powers[place] - n
-            term = a * comb(powers[place], n) * c**m
             new = list(powers)
             new[place], new[1] = n, powers[1] + q * m
-            value[tuple(new)] += term
-            size[tuple(new)] += abs(term)
-    return {powers: a for powers, a in value.items() if abs(a) > zero * size[powers]}
+            terms.append((tuple(new), a * comb(powers[place], n) * c**m))
+    return collected(terms)
+
+
+def collected(terms):
+    """The polynomial {powers: sum} of terms (powers, coefficient), without the sums that cancel."""
+    value, size = defaultdict(mp.mpc), defaultdict(mp.mpf)
+    for powers, a in terms:
+        value[powers] += a
+        size[powers] += abs(a)
+    return {powers: a for powers, a in value.items() if abs(a) > ZERO * size[powers]}

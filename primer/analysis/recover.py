@@ -28,7 +28,7 @@ def recovered(pencil):
 
 
 def _fits(pencil, tables):
-    xi = pencil._probe
+    xi = pencil.probe
     x, y = xi if pencil.dim == 2 else (xi, np.ones_like(xi))
     for values, table in zip(pencil.matrices(xi), tables, strict=True):
         powers = x ** np.arange(len(table))[:, None], y ** np.arange(table.shape[1])[:, None]
@@ -40,7 +40,6 @@ def _fits(pencil, tables):
 
 def _symbol(tables, dim):
     size = tables[0].shape[-1]
-    largest = [np.abs(table).max() for table in tables]
     entries = [[{} for _ in range(size)] for _ in range(size)]
     for n, table in enumerate(tables):
         for (a, b, r, c), value in np.ndenumerate(table):
@@ -49,7 +48,7 @@ def _symbol(tables, dim):
                 p if abs(p) > NOISE * max(abs(value), np.abs(table[..., r, c]).max()) else 0.0
                 for p in (value.real, value.imag)
             ]
-            if any(parts) and abs(value) > NOISE * largest[n] * NOISE:
+            if any(parts):
                 number = mp.mpc(*(f"{p:.{DIGITS - 1}e}" for p in parts))
                 entries[r][c][n, a, b] = number / mp.mpc(0, 1) ** (a + b)
     return Symbol(tuple(tuple(row) for row in entries), dim)

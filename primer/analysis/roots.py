@@ -78,16 +78,16 @@ def _simple_roots(p):
     return mp.polyroots(p[::-1], maxsteps=1000, extraprec=mp.mp.prec) if len(p) > 1 else []
 
 
-def resultant(p, q, zero=ZERO):
+def resultant(p, q):
     """The resultant of polynomials whose coefficients are polynomials in a parameter: a polynomial in that, [] if zero.
 
     By interpolation of Sylvester determinants at whole numbers.
     """
     with mp.extradps(DIGITS):  # interpolation loses many
-        return _resultant(p, q, zero)
+        return _resultant(p, q)
 
 
-def _resultant(p, q, zero):
+def _resultant(p, q):
     degrees = [max(len(c) for c in f) - 1 for f in (p, q)]
     nodes = range(1, (len(q) - 1) * degrees[0] + (len(p) - 1) * degrees[1] + 2)
     values, sizes = [], []
@@ -95,10 +95,10 @@ def _resultant(p, q, zero):
         rows = [[mp.polyval(c[::-1], s) for c in f] for f in (p, q)]
         values.append(_sylvester(*rows))
         sizes.append(max(map(abs, rows[0])) ** (len(q) - 1) * max(map(abs, rows[1])) ** (len(p) - 1))
-    if all(abs(v) <= zero * s for v, s in zip(values, sizes, strict=True)):
+    if all(abs(v) <= ZERO * s for v, s in zip(values, sizes, strict=True)):
         return []
     found = _interpolated(nodes, values)
-    least = zero * max(map(abs, found))
+    least = ZERO * max(map(abs, found))
     return trimmed([a if abs(a) > least else mp.mpc(0) for a in found], 0)
 
 

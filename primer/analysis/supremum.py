@@ -3,11 +3,12 @@
 import mpmath as mp
 import numpy as np
 
-from primer.analysis.roots import DIGITS, roots
+from primer.analysis.puiseux import collected
+from primer.analysis.roots import DIGITS, ZERO, roots
 
 NOISE = 1e-11  # relative real part below which an eigenvalue in double precision counts as purely imaginary
 PLACES = 6  # local maxima followed up
-TRIALS = 60  # places looked at in search of them
+TRIALS = 20  # places looked at in search of them
 PRECISE = 300  # digits for the roots of one polynomial: enough for roots 24 decades apart in size
 
 
@@ -23,26 +24,27 @@ def supremum(symbol, law, real):
     angle = (np.pi if real else 2 * np.pi) * np.arange(angles) / angles
     rate = _rates(pencil, s[:, None], angle)
     values = [(exact_growth(symbol, np.zeros(symbol.dim)), 0.0)]
-    values += [
-        (exact_growth(symbol, _wavevector(symbol.dim, -15.0, a)), 0.0) for a in angle[::15]
-    ]  # xi = 0 may leave gaps
+    # At xi = 0 some unknown may be undetermined, so that the limit is asked for too.
+    values += [(exact_growth(symbol, _wavevector(symbol.dim, -15.0, a)), 0.0) for a in angle[::15]]
     if law.exponent <= 0:
         values.append((law.coefficient if law.exponent == 0 else 0.0, np.inf))
-    found = 0
-    for place in np.argsort(-_peaks(rate), axis=None)[:TRIALS]:
+    peaks = _peaks(rate)
+    order = np.argsort(-peaks, axis=None)
+    order = order[peaks.flat[order] > -np.inf]
+    imaginary = order[rate.flat[order] == 0]
+    followed = 0
+    for place in [*imaginary[:: len(imaginary) // PLACES + 1], *order[rate.flat[order] != 0][:TRIALS]]:
         n, m = np.unravel_index(place, rate.shape)
-        if found == PLACES or rate[n, m] == -np.inf:
-            break
-        if rate[n, m] == 0:  # purely imaginary
-            values.append((0.0, 10.0 ** s[n]))
-            continue
-        # A multiple imaginary eigenvalue may pass for growth in double precision: ask with more digits.
+        # What double precision takes for growth, or for none, may be rounding: ask with more digits.
         exact = exact_growth(symbol, _wavevector(symbol.dim, s[n], angle[m]))
+        best_so_far = max(value for value, _ in values)
         values.append((exact, 10.0 ** s[n]))
-        if abs(exact - rate[n, m]) <= 1e-3 * abs(exact):
+        if exact < best_so_far - 0.5 * (abs(exact) + abs(best_so_far)):
+            continue  # no maximum can be so much higher than the scan's nearest place
+        if followed < PLACES and rate[n, m] != 0 and abs(exact - rate[n, m]) <= 1e-3 * abs(exact):
             best = _followed(pencil, s[n], angle[m], s[1] - s[0], np.pi / angles)
             values += _sharpened(symbol, *best)
-            found += 1
+            followed += 1
     values += _poles(symbol, real) if symbol.dim == 1 else []
     value, where = max(values, key=lambda item: item[0])
     tiny = 1e-14 * np.abs(np.nan_to_num(pencil.eigenvalues(_wavevector(symbol.dim, 0.0, 0.1)))).max(initial=0)
@@ -73,7 +75,7 @@ def _followed(pencil, s, angle, width, turn):
     """(s, angle) moved uphill by ever finer scans of its neighbourhood."""
     steps = np.linspace(-1, 1, 5)
     turns = steps if pencil.dim == 2 else np.zeros(1)
-    for _ in range(45):
+    for _ in range(30):
         rate = _rates(pencil, s + width * steps[:, None], angle + turn * turns)
         n, m = np.unravel_index(np.argmax(rate), rate.shape)
         if rate[n, m] > rate[2, len(turns) // 2]:
@@ -88,8 +90,8 @@ def _poles(symbol, real):
     leading = {a: c for (n, a, _), c in symbol.determinant.items() if n == top}
     found = []
     with mp.workdps(DIGITS):
-        for z, _ in roots([leading.get(a, mp.mpc(0)) for a in range(max(leading) + 1)], symbol.zero):
-            if abs(z.imag) <= mp.sqrt(symbol.zero) * abs(z) and z.real != 0:
+        for z, _ in roots([leading.get(a, mp.mpc(0)) for a in range(max(leading) + 1)], ZERO):
+            if abs(z.imag) <= mp.sqrt(ZERO) * abs(z) and z.real != 0:
                 for side in (1, -1):
                     near, nearer = (exact_growth(symbol, z.real * (1 + side * mp.mpf(10) ** -n)) for n in (9, 12))
                     found.append((np.inf if nearer > 2 * max(near, 0) else nearer, abs(float(z.real))))
@@ -112,12 +114,9 @@ def exact_growth(symbol, xi):
     """max Re lambda at one wavevector from the roots of det M, with many digits; -inf if det M vanishes."""
     with mp.workdps(PRECISE):
         xi = [mp.mpf(x) for x in np.atleast_1d(xi)] + [mp.mpf(1)]
-        p, size = {}, {}
-        for (n, a, b), c in symbol.determinant.items():
-            term = c * xi[0] ** a * (xi[1] ** b if b else 1)
-            p[n], size[n] = p.get(n, 0) + term, size.get(n, 0) + abs(term)
-        p = {n: value for n, value in p.items() if abs(value) > symbol.zero * size[n]}
+        terms = ((n, c * xi[0] ** a * (xi[1] ** b if b else 1)) for (n, a, b), c in symbol.determinant.items())
+        p = collected(terms)
         if max(p, default=0) == 0:
             return -np.inf
         p = [p.get(n, mp.mpc(0)) for n in range(max(p) + 1)]
-        return float(max(z.real if abs(z.real) > symbol.zero * abs(z) else 0 for z, _ in roots(p, mp.mpf(10) ** -200)))
+        return float(max(z.real if abs(z.real) > ZERO * abs(z) else 0 for z, _ in roots(p, mp.mpf(10) ** -200)))

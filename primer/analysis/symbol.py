@@ -10,6 +10,7 @@ from functools import cached_property
 import mpmath as mp
 import numpy as np
 
+from primer.analysis.determinant import determinant
 from primer.analysis.pencil import Pencil
 from primer.analysis.roots import DIGITS, ZERO
 
@@ -23,26 +24,18 @@ class Symbol:
     entries : tuple of tuples of polynomials {(n, a, b): c} in lambda and the derivatives (d/dx, d/dy) = i xi: the
         coefficients of time derivatives of order n and space derivatives of orders a and b
     dim : int       the number of space variables
-    zero : float    the relative size below which a sum of cancelling coefficients counts as zero
     """
 
     entries: tuple
     dim: int = 1
-    zero: float = ZERO
 
     @cached_property
     def determinant(self):
         """det M as a polynomial {(n, a, b): c} in lambda, xi_1, xi_2, without the terms that cancel."""
         with mp.workdps(DIGITS):
-            rows = [
-                [{p: (c * mp.mpc(0, 1) ** (p[1] + p[2]), abs(c)) for p, c in entry.items()} for entry in row]
-                for row in self.entries
-            ]
-            minors = {frozenset(): {(0, 0, 0): (mp.mpc(1), mp.mpf(1))}}
-            for row in rows:  # expanded along the rows, each minor once
-                minors = _next_minors(row, minors)
-            (whole,) = minors.values()
-            return {power: value for power, (value, size) in whole.items() if abs(value) > self.zero * size}
+            i = mp.mpc(0, 1)
+            rows = [[{p: c * i ** (p[1] + p[2]) for p, c in entry.items()} for entry in row] for row in self.entries]
+            return determinant(rows, ZERO)
 
     def pencil(self, multiplier=None):
         """The symbol as numbers: a :class:`Pencil`, with extra unknowns that stand for u_t where u_tt occurs.
@@ -95,20 +88,3 @@ class _Matrix:
 
     def _derivative(self, xi, m):
         return self.multiplier(xi, m) if self.multiplier else 1j**m * xi**m
-
-
-def _next_minors(row, minors):
-    """Minors of one more row: {columns: {power: (value, sum of absolute values)}}."""
-    longer = {}
-    for columns, minor in minors.items():
-        for c, entry in enumerate(row):
-            if c in columns or not entry or not minor:
-                continue
-            sign = (-1) ** sum(other > c for other in columns)
-            target = longer.setdefault(columns | {c}, {})
-            for p, (a, a_size) in entry.items():
-                for q, (b, b_size) in minor.items():
-                    power = tuple(m + n for m, n in zip(p, q, strict=True))
-                    value, size = target.get(power, (0, 0))
-                    target[power] = value + sign * a * b, size + a_size * b_size
-    return longer or {frozenset(): {}}

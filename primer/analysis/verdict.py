@@ -106,7 +106,7 @@ def _along_line(symbol, real):
     found = []
     for sign in (1,) if real else (1, -1):
         P = {(n, a): c * sign**a for (n, a, _), c in symbol.determinant.items()}
-        found.append((branches(P, symbol.zero)[0].law, sign))
+        found.append((branches(P)[0].law, sign))
     law, sign = max(found, key=lambda item: (item[0], item[1]))
     return law, (float(sign),), Fraction(0), ""
 
@@ -115,7 +115,7 @@ def _in_plane(symbol, real):
     """The fastest law, found exactly, and whether the largest growth at two large wavenumbers exceeds it."""
     pencil, k = symbol.pencil(), np.array([1e5, 1e7])
     best = max_growth(pencil, k)
-    worst = worst_law(symbol.determinant, symbol.zero, real, best.angle)
+    worst = worst_law(symbol.determinant, real, best.angle)
     seen = [max(exact_growth(symbol, xi), 0.0) for xi in (k * best.direction).T]  # without rounding errors
     law = worst.law
     allowed = 2 * seen[0] if law.is_bounded else 1.2 * law.coefficient * k[1] ** float(law.exponent)
