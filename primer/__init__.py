@@ -37,6 +37,7 @@ _HOME = {
     "Stop": "schemes.run",
     "Toy": "problems.toy",
     "Verdict": "analysis.verdict",
+    "cost_against_n": "study.cost",
     "critical_state": "granular.criteria",
     "ftcs": "schemes.ftcs",
     "ftcs_ensemble": "schemes.ensemble",
@@ -44,12 +45,15 @@ _HOME = {
     "growth_laws": "analysis.laws",
     "growth_limit": "granular.posedness",
     "growth_rates": "analysis.symbolic",
+    "heat_onset": "study.refinement",
     "linearise": "analysis.symbolic",
     "march_lines": "schemes.lines",
     "max_growth": "analysis.directions",
     "neutral_inertial_numbers": "granular.criteria",
     "reference": "schemes.reference",
+    "refine": "study.refinement",
     "verdict": "analysis.verdict",
+    "work_precision": "study.cost",
 }
 _ROOMS = ("problems", "schemes", "analysis", "granular", "study", "view")
 

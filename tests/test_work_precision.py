@@ -10,7 +10,7 @@ import pytest
 from primer import Toy
 from primer.study import measured
 from primer.study.contestants import Method, contestants
-from primer.study.work_precision import Point, WorkPrecision, cost_against_n, pareto, work_precision
+from primer.study.cost import Point, WorkPrecision, cost_against_n, pareto, work_precision
 
 ROOT = Path(__file__).parents[1]
 STORE = ROOT / "figures" / "work_precision.measured.json"

@@ -1,4 +1,4 @@
-"""Ways to march the toy system that :mod:`primer.study.work_precision` sets against each other."""
+"""Ways to march the toy system that :mod:`primer.study.cost` sets against each other."""
 
 import math
 from collections.abc import Callable

@@ -6,7 +6,7 @@ from dataclasses import asdict
 from pathlib import Path
 
 from primer.problems.toy import Toy
-from primer.study.work_precision import Point, WorkPrecision, pareto
+from primer.study.cost import Point, WorkPrecision, pareto
 
 
 def write(path, study, cost):

@@ -11,7 +11,7 @@ import sys
 from pathlib import Path
 
 from primer.study import measured
-from primer.study.work_precision import cost_against_n, work_precision
+from primer.study.cost import cost_against_n, work_precision
 
 ROOT = Path(__file__).resolve().parents[2]
 STORE, README = ROOT / "figures" / "work_precision.measured.json", ROOT / "README.md"
