@@ -68,6 +68,12 @@ def _decimal(digits):
     return Arithmetic(np.dtype(object), context.mpf, +context.pi, float(context.eps), sys.float_info.max)
 
 
+def constant(x, value):
+    """``value`` at every point x, in the numbers of x, or in floats where x holds whole numbers."""
+    x = np.asarray(x)
+    return np.full_like(x, value, dtype=np.result_type(x, 0.0))
+
+
 def sin(x):
     """sin x, element by element, also for arrays of multiprecision numbers."""
     return np.sin(x) if np.asarray(x).dtype != object else np.frompyfunc(lambda z: z.context.sin(z), 1, 1)(x)

@@ -35,6 +35,20 @@ def test_stencils_reach_their_order(m):
     assert np.log2(error[0] / error[1]) == pytest.approx(CENTRAL[m].order, abs=0.01)
 
 
+@pytest.mark.parametrize(
+    ("call", "sentence"),
+    [
+        (lambda: Grid(8).derivative(np.arange(7.0), 1), r"f must have shape \(..., 8\) on this grid, got \(7,\)"),
+        (lambda: discrete_steady(Toy(1.5), 0.0, math.pi), "h must be a finite number > 0 and < 3.14159"),
+        (lambda: discrete_steady(Toy(1.5), 0.0, 0), "h must be a finite number > 0 and < 3.14159"),
+        (lambda: amplification(np.eye(2), -1), "dt must be a finite number > 0, got -1"),
+    ],
+)
+def test_bad_input_gets_one_sentence(call, sentence):
+    with pytest.raises(ValueError, match=sentence):
+        call()
+
+
 def test_grid_is_the_papers():
     grid = Grid(100)
     assert grid.x[0] == -math.pi

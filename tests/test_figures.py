@@ -86,17 +86,33 @@ def test_drift_sees_each_kind_of_claim():
     stored = {
         "near": sidecar.close(1.0, "x", rtol=1e-3),
         "in": sidecar.within(2.0, 1, 3, "x"),
+        "high": sidecar.within(2.0, 1, 3, "x"),
+        "small": sidecar.close(-1.0, "x", atol=1e-3, rtol=1e-3),
+        "far": sidecar.close(-1.0, "x", atol=1e-3, rtol=1e-3),
         "text": sidecar.same("a", "x"),
         "gone": sidecar.same(1, "x"),
     }
     fresh = {**stored, "near": sidecar.close(1.002, "x"), "in": sidecar.within(0.9, 1, 3, "x"), "new": stored["gone"]}
+    fresh |= {"high": sidecar.within(3.1, 1, 3, "x"), "small": sidecar.close(-1.0019, "x")}
+    fresh["far"] = sidecar.close(-0.9979, "x")
     del fresh["gone"]
     sentences = "\n".join(sidecar.drift(stored, fresh))
-    for name in ("near", "in", "gone", "new"):
+    for name in ("near", "in", "high", "far", "gone", "new"):
         assert f"{name} is" in sentences
     assert "text" not in sentences
+    assert "small" not in sentences  # the two slacks add up
     assert sidecar.drift(stored, stored) == []
     assert sidecar.drift({"in": stored["in"]}, {"in": sidecar.within(float("nan"), 1, 3, "x")})
+
+
+def test_a_number_that_is_not_finite_is_not_stored():
+    with pytest.raises(ValueError, match="JSON"):
+        sidecar.dumps({"x": sidecar.close(float("inf"), "x")})
+
+
+def test_what_is_asked_for_twice_is_made_once(tmp_path):
+    options = regenerate._options(["fig31", "fig32", "fig31", "--formats", "svg,png,svg", "--out", str(tmp_path)])
+    assert (options.names, options.formats) == (["fig31", "fig32"], ["svg", "png"])
 
 
 def test_an_interrupted_or_failing_drawing_leaves_the_old_files(tmp_path, monkeypatch):

@@ -16,6 +16,7 @@ import primer.schemes.ftcs as scheme
 from primer import BackwardHeat, Run, Seed, Stop, Toy, ftcs
 from primer.compiled import _say, compiled
 from primer.schemes.discrete import dist_floor
+from primer.schemes.grid import Grid
 
 
 @pytest.fixture(params=["compiled", "interpreted"])
@@ -171,6 +172,32 @@ def test_first_touch_counts_the_initial_data(path, a, t):
     assert ftcs(Toy(a), 16, 1e-2, 1.0).t_first_negative == t
 
 
+def test_a_u_of_exactly_zero_counts_as_touched(path):
+    n, dt = 16, 1e-2
+    grid = Grid(n)
+    (_, v) = Toy(1.0).initial(grid.x)
+    a = -(dt * grid.derivative(v, 1)).min()  # the first step takes u there to a - a
+    run = ftcs(Toy(a), n, dt, 5 * dt, 1)
+    assert run.u_min[1] == 0
+    assert run.t_first_negative == dt
+
+
+def test_a_dist_equal_to_the_limit_is_not_beyond_it(path):
+    a, n, dt = -2.0, 8, 1e-2
+    x, dist2 = Grid(n).x, []
+    for u, v in march(a, 0.2, n, dt, 1000):
+        dist2.append(((u - (a - np.cos(x))) ** 2 + v**2).max())
+        if dist2[-1] > 1e4:
+            break
+    limit = np.sqrt(dist2)
+    exact = [k for k in range(1, len(limit) - 1) if limit[k] ** 2 == dist2[k] > max(dist2[:k])]
+    assert len(exact) > 20
+    for k in exact[:: len(exact) // 10]:
+        run = ftcs(Toy(a, 0.2), n, dt, 10.0, blow_up_at=limit[k])
+        later = next(m for m in range(k + 1, len(limit)) if dist2[m] > dist2[k])
+        assert (run.stop, run.t_stop) == (Stop.BLEW_UP, later * dt)
+
+
 def test_records_and_snapshots_lie_where_asked():
     run = ftcs(Toy(1.5), 16, 0.03, 1.0, record_every=10, snapshots=[1.0, 0.0, 0.5, 0.5])
     assert run.t_stop == 33 * 0.03  # whole steps: round(t_end/dt)
@@ -260,9 +287,21 @@ def test_without_numba_it_is_said_once(monkeypatch):
 
 
 @pytest.mark.parametrize("dtype", [np.float32, np.float64])
+def test_data_too_large_for_the_numbers_are_an_outcome(dtype):
+    for problem, seed in ((BackwardHeat(1, 1e300), None), (Toy(1.5), (1, 1e300)), (Toy(1e300), None)):
+        run = ftcs(problem, 16, 1e-2, 1.0, seed=seed, dtype=dtype)
+        assert run.stop is Stop.BLEW_UP
+        assert run.t_stop <= 0.01
+
+
+def test_fewer_records_than_steps_may_be_asked_for(path):
+    assert ftcs(Toy(1.5), 8, 1e-2, 1.0, record_every=10**30).t.tolist() == [0.0, 1.0]
+
+
+@pytest.mark.parametrize("dtype", [np.float32, np.float64])
 def test_hopeless_parameters_still_end_in_an_outcome(path, dtype):
     """Steps far beyond any stability limit: the first or second state is no number any more, without a warning."""
-    for problem in (Toy(0.5, 1e30), Toy(-1e12, 1.0), Toy(1.5, 10.0)):
+    for problem in (Toy(0.5, 1e30), Toy(-1e12, 1.0), Toy(1.5, 10.0), Toy(1e300), Toy(0.5, 1e300)):
         run = ftcs(problem, 64, 10.0, 1000.0, dtype=dtype)
         assert run.stop is Stop.BLEW_UP
         assert run.t_stop <= 200
@@ -301,6 +340,9 @@ def test_hopeless_parameters_still_end_in_an_outcome(path, dtype):
         ({"blow_up_at": 0}, ValueError, "blow_up_at must be a finite number > 0 and <= 1.34078e+154, got 0"),
         ({"dtype": "float16"}, ValueError, "dtype must be float32, float64 or longdouble"),
         ({"dtype": "nonsense"}, ValueError, "dtype must be float32, float64 or longdouble"),
+        ({"dt": 1e-60, "t_end": 1e-50}, ValueError, "dt must be >= 1.2e-38, got 1e-60"),
+        ({"seed": (1,)}, TypeError, "seed must be a Seed, or its (mode, amplitude, field) as a tuple, or None"),
+        ({"problem": Toy}, TypeError, "problem must be a Toy, a BackwardHeat or an object with their methods, got <cl"),
         ({"digits": 1}, ValueError, "digits must be an integer >= 2 and <= 10000, got 1"),
         ({"problem": 3}, TypeError, "problem must be a Toy, a BackwardHeat or an object with their methods, got 3"),
     ],

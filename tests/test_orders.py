@@ -188,6 +188,7 @@ def test_the_end_is_met_and_a_blow_up_is_an_outcome():
         ((16, 0.1, -1), ValueError, "t_end must be"),
         ((16, 1e-300, 1), ValueError, "dt must be"),
         ((16, 0.1, 1, 4), TypeError, "space must be"),
+        ((16, 0.1, 1, {1: 1, 2: 2}), TypeError, "space must be"),
         ((16, 0.1, 1, CENTRAL, 4), TypeError, "time must be"),
     ],
 )

@@ -76,6 +76,14 @@ def test_toy_symbol_is_the_derivative_of_the_right_hand_side(u, v_xx):
     np.testing.assert_allclose(problem.symbol(xi, u, v_xx), S, rtol=1e-14)
 
 
+@pytest.mark.parametrize("x", [[0, 1, 2], np.arange(3), range(3), 2])
+def test_whole_numbers_are_as_good_as_others(x):
+    for problem in (Toy(1.5, 0), BackwardHeat(2, 0.5)):
+        for fields in (problem.initial, problem.steady):
+            np.testing.assert_array_equal(fields(x), fields(np.asarray(x, dtype=float)))
+        np.testing.assert_allclose(problem.exact(x, 0), problem.initial(x), atol=1e-15)
+
+
 def test_toy_symbol_has_the_characteristic_polynomial_of_physics():
     problem, xi, u, v_xx = Toy(1.0, eps=0.01), np.array([1.0, 7.0, 300.0]), -0.5, 0.3
     S = problem.symbol(xi, u, v_xx)
@@ -145,6 +153,9 @@ def test_scaled_modes_vanish_at_first_and_explode_later():
     xi = np.array([10.0, 20.0, 40.0])
     assert np.all(np.diff(heat.scaled_amplitude(xi, 0.0, 4)) < 0)
     assert np.all(np.diff(heat.scaled_amplitude(xi, 0.1, 4)) > 0)
+    np.testing.assert_array_equal(heat.scaled_amplitude(-xi, 0.1, 3.5), heat.scaled_amplitude(xi, 0.1, 3.5))
+    assert heat.scaled_amplitude(100, 1, 2) == math.inf  # no warning: that it explodes is the point
+    assert heat.mode(100, [-0.01, 0, 0.01], 1).tolist() == [-math.inf, 0, math.inf]
     sup = np.abs(heat.mode(10.0, np.linspace(0, 7, 100001), 0.1)).max() * 10.0**-4
     assert heat.scaled_amplitude(10.0, 0.1, 4) == pytest.approx(sup, rel=1e-6)
 
@@ -163,6 +174,8 @@ def test_scaled_modes_vanish_at_first_and_explode_later():
         (lambda: Toy(0.5, 0).exact(0.0, [math.inf]), ValueError, "t must be finite everywhere, got [inf]"),
         (lambda: BackwardHeat(xi=0), ValueError, "xi must be an integer >= 1, got 0"),
         (lambda: BackwardHeat(xi=1.5), TypeError, "xi must be an integer >= 1, got 1.5 (float)"),
+        (lambda: heat.abs_sin_log_norms(1, -1, 3), ValueError, "t must be a finite number >= 0, got -1"),
+        (lambda: heat.scaled_amplitude([1, 0], 1, 2), ValueError, "xi must not be 0, got [1.0, 0.0]"),
         (lambda: heat.abs_sin_coefficients(-1, 3), ValueError, "p must be a finite number >= 0, got -1"),
         (lambda: heat.abs_sin_coefficients(1, -3), ValueError, "m_max must be an integer >= 0, got -3"),
     ],

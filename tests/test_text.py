@@ -73,6 +73,8 @@ def test_conservation_form_is_the_same_system():
         ("u_t = sin(0*u)*u_x + cos(0)*u", 1 + 0 * xi),
         ("u_t = exp(u_x)_x", sp.exp(sp.Symbol("u_x")) * (-(xi**2) + sp.I * xi * sp.Symbol("u_xx"))),
         ("\n\n u_t=u ;; \n", sp.Integer(1)),
+        ("u_t = 25e-1*u", sp.Rational(5, 2)),
+        ("(2*u\n)_t = (u_x +\n u)_x", (-(xi**2) + sp.I * xi) / 2),
         ("ε_t = ε_x", sp.I * xi),
         ("phi_1_t = −phi_1_xx", xi**2),  # noqa: RUF001
     ],
@@ -208,6 +210,7 @@ def test_a_base_state_where_the_equations_cannot_be_linearised(text, at):
         ("u_t = 0^-1", "division by zero", 7),
         ("u_t = log(0)*u", "not finite", 6),
         ("u_t = 9^9^9", "too large", 7),
+        ("u_t = u_xx + u_zz", "a third space variable", 13),
         ("u_t = x_x", "independent variable", 6),
         ("u_t = u_xxxxxxxxxxxxx", "a derivative of order 13", 6),
         ("u_t = 1e999*u", "larger exponent", 6),
@@ -222,6 +225,20 @@ def test_errors_show_the_place(text, problem, column):
     assert line.strip() in text
     assert caret.index("^") - 4 == column
     assert isinstance(caught.value, ValueError)
+
+
+@pytest.mark.parametrize(
+    ("allowed", "refused"),
+    [
+        (";".join(f"{c}_t = {c}" for c in "abcdfg"), ";".join(f"{c}_t = {c}" for c in "abcdfgh")),
+        ("u_t = " + "+".join(["u"] * 299), "u_t = u" + "+" + "+".join(["u"] * 299)),  # 599 symbols, 601
+        ("u_t = " + "a" * 40 + "*u", "u_t = " + "a" * 41 + "*u"),
+    ],
+)
+def test_the_limits_are_where_they_are_said_to_be(allowed, refused):
+    assert parse(allowed)
+    with pytest.raises(PDEError, match="allowed"):
+        parse(refused)
 
 
 def test_a_long_line_is_shown_in_part():

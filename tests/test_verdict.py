@@ -180,6 +180,14 @@ def test_growth_that_is_unbounded_at_a_finite_wavenumber_is_not_judged():
     assert "near |xi| = 1" in found.reason
 
 
+@pytest.mark.parametrize(("sign", "direction"), [("-", (1, 0)), ("", (-1, 0))])
+def test_growth_on_one_side_only_is_found_there(sign, direction):
+    """u_t = s i u_x grows like -s xi_1: a complex equation, for which xi and -xi differ."""
+    assert verdict(f"u_t = {sign}i*u_x").direction == direction[:1]
+    found = verdict(f"u_t = {sign}i*u_x + 0*u_yy")
+    assert (found.kind, found.exponent, found.coefficient, found.direction) == (ILL, 1, pytest.approx(1), direction)
+
+
 @settings(max_examples=12, deadline=None)
 @given(*[st.integers(-3, 3)] * 3, st.integers(-3, 3))
 def test_anisotropic_quadratic_forms(a, b, c, d):

@@ -4,8 +4,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from primer.analysis.pencil import growth
-from primer.checks import real_array
+from primer.analysis.pencil import Pencil, growth
+from primer.checks import real_array, shown
 
 SCAN = 180  # directions of the first scan: a degree apart on the half circle
 PEAKS = 8  # local maxima followed up
@@ -48,6 +48,8 @@ def max_growth(pencil, k):
     -------
     MaxGrowth
     """
+    if not isinstance(pencil, Pencil):
+        raise TypeError(f"pencil must be a Pencil (for equations as text there is growth_rates), got {shown(pencil)}")
     k = real_array("k", k)
     if (k <= 0).any():
         raise ValueError("k must be positive everywhere: it is the length of the wavevector")

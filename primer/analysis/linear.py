@@ -126,6 +126,9 @@ class _Builder:
         if node.value in CONSTANTS:
             return CONSTANTS[node.value]
         base, letters = split_name(node.value)
+        stem, _, subscript = node.value.rpartition("_")
+        if stem in self.unknowns and "z" in subscript and set(subscript) <= set("xyzt"):
+            self.fail("a third space variable: there are x and y only", node)
         if base in VARIABLES and letters:
             self.fail(f"{base} is an independent variable and cannot be differentiated", node)
         return self.symbol(base, letters, node)

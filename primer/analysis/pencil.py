@@ -7,7 +7,7 @@ from functools import cached_property
 import numpy as np
 
 from primer.analysis.eigen import degree, finite_eigenvalues
-from primer.checks import integer, real_array
+from primer.checks import integer, real_array, shown
 
 LARGEST = 12  # the number of finite eigenvalues is found by an expansion of 2^k terms
 
@@ -126,6 +126,8 @@ def growth(pencil, xi):
 
     -inf if there is none (no equation contains a time derivative).
     """
+    if not isinstance(pencil, Pencil):
+        raise TypeError(f"pencil must be a Pencil (for equations as text there is growth_rates), got {shown(pencil)}")
     lam = pencil.eigenvalues(xi)
     return lam[..., 0].real if pencil.count else np.full(lam.shape[:-1], -np.inf)
 

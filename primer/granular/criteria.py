@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from primer.checks import shown
+from primer.checks import real, shown
 from primer.granular.friction import as_friction, inertial
 from primer.granular.linearisation import coefficients
 from primer.granular.state import BaseState
@@ -101,6 +101,8 @@ def neutral_inertial_numbers(friction, low=1e-12, high=1e12):
     dip below zero; then bisection.
     """
     friction = as_friction(friction)
+    low = real("low", low, above=0)
+    high = real("high", high, least=low)
 
     def growth(s):
         return np.minimum(incompressible_criterion(friction, np.exp(s)).growth, 1)

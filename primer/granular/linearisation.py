@@ -86,9 +86,9 @@ def linearise(law, state):
     """
     from primer.analysis.pencil import Pencil
 
+    c = coefficients(law, state)
     if state.shape != ():
         raise ValueError(f"state must be a single state to make a pencil, got shape {state.shape}")
-    c = coefficients(law, state)
     return Pencil(lambda xi: symbol(c, xi), mass(c), dim=2)
 
 

@@ -6,6 +6,8 @@ import numpy as np
 
 from primer.checks import real_array, shown
 
+_LAW = "Y", "Y_p", "Y_phi", "Y_I", "f", "f_p", "f_phi", "f_I"
+
 
 @dataclass(frozen=True, eq=False)
 class BaseState:
@@ -76,6 +78,8 @@ def admit(law, state):
     ------
     ValueError    if phi is outside the law's range or Y(p, phi, I) is not a positive number
     """
+    if isinstance(law, type) or not all(callable(getattr(law, name, None)) for name in _LAW):
+        raise TypeError(f"law must have the functions {', '.join(_LAW)} of (p, phi, I), as CIDR has, got {shown(law)}")
     if not isinstance(state, BaseState):
         raise TypeError(f"state must be a BaseState, got {shown(state)}")
     Y = np.broadcast_to(law.Y(state.p, state.phi, state.I), state.shape)

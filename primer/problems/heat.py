@@ -6,8 +6,8 @@ from typing import ClassVar
 import numpy as np
 from scipy.special import beta
 
-from primer.arithmetic import sin
-from primer.checks import integer, real, real_array
+from primer.arithmetic import constant, sin
+from primer.checks import integer, real, real_array, shown
 
 
 def tendency(u_xx):
@@ -41,11 +41,11 @@ class BackwardHeat:
 
     def initial(self, x):
         """(u,) at t = 0; x of any shape."""
-        return (self.amplitude * sin(self.xi * x),)
+        return (self.amplitude * sin(self.xi * np.asarray(x)),)
 
     def steady(self, x):
         """(0,): the trivial solution that the paper perturbs."""
-        return (np.zeros_like(x),)
+        return (constant(x, 0),)
 
     def exact(self, x, t):
         """(u,) at time t: the mode of the initial data, grown by e^{xi^2 t}."""
@@ -71,9 +71,14 @@ class BackwardHeat:
 
 
 def mode(xi, x, t):
-    """sin(xi x) e^{xi^2 t}, eq. (backward-heat-growing-sln), of the broadcast shape of its arguments."""
+    """sin(xi x) e^{xi^2 t}, eq. (backward-heat-growing-sln), of the broadcast shape of its arguments.
+
+    Infinite where it is beyond the largest number, and 0 where sin(xi x) is, however large t.
+    """
     xi, x, t = real_array("xi", xi), real_array("x", x), real_array("t", t)
-    return np.sin(xi * x) * np.exp(xi**2 * t)
+    wave = np.sin(xi * x)
+    with np.errstate(over="ignore", invalid="ignore"):
+        return np.where(wave == 0, 0.0, wave * np.exp(xi**2 * t))[()]
 
 
 def scaled_amplitude(xi, t, p):
@@ -83,7 +88,11 @@ def scaled_amplitude(xi, t, p):
     fails.
     """
     xi, t = real_array("xi", xi), real_array("t", t)
-    return np.abs(xi) ** -real("p", p, least=0) * np.exp(xi**2 * t)
+    p = real("p", p, least=0)
+    if (xi == 0).any():
+        raise ValueError(f"xi must not be 0, got {shown(xi.tolist())}")
+    with np.errstate(over="ignore"):
+        return np.abs(xi) ** -p * np.exp(xi**2 * t)
 
 
 def abs_sin_coefficients(p, m_max):

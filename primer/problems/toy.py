@@ -6,7 +6,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from primer.arithmetic import cos, sin
+from primer.arithmetic import constant, cos, sin
 from primer.checks import real, real_array
 
 
@@ -49,11 +49,11 @@ class Toy:
 
     def initial(self, x):
         """(u, v) at t = 0, eq. (toy-initial); x of any shape."""
-        return np.full_like(x, self.a), -sin(x) / 2
+        return constant(x, self.a), -sin(x) / 2
 
     def steady(self, x):
         """(u, v) as t -> infinity, eq. (toy-steady); a steady state for every eps, stable only where u > 0."""
-        return self.a - cos(x), np.zeros_like(x)
+        return self.a - cos(x), constant(x, 0)
 
     def exact(self, x, t):
         """(u, v) at time t for eps = 0, eq. (toy-sln), of the broadcast shape of x and t.

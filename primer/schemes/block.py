@@ -33,6 +33,10 @@ class Block:
             stacked = side_by_side(arrays)
             return stacked.reshape(*stacked.shape[:-2], -1)
 
+        def eps(problem):
+            with np.errstate(over="ignore"):  # an eps beyond the largest number is infinite: a blow-up
+                return np.full(x.size + 2, problem.eps, dtype=x.dtype)
+
         states = [state for _, _, state, _ in starts]
         ghosts = (0, 0), (0, 0), (1, 1)
         self.w = cells([np.pad(np.stack([state, state]), ghosts) for state in states])
@@ -47,7 +51,7 @@ class Block:
             number(CENTRAL[1].scale(h)),
             number(CENTRAL[2].scale(h)),
             number(asked.dt),
-            cells([np.full(x.size + 2, problem.eps, dtype=x.dtype) for problem in problems]),
+            cells([eps(problem) for problem in problems]),
             number(asked.blow_up_at),
             number(asked.blow_up_at * 1e-6),
         )

@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 
+from primer.arithmetic import constant
 from primer.checks import real
 from primer.schemes.grid import Grid
 
@@ -14,7 +15,8 @@ def discrete_steady(toy, x, h):
     A central first difference turns cos x into -(sin h/h) sin x; u must make up for it. It differs from eq.
     (toy-steady) by h^2/6 to leading order.
     """
-    return toy.a - (h / math.sin(h)) * np.cos(x), np.zeros_like(x)
+    h = real("h", h, above=0, below=math.pi)
+    return toy.a - (h / math.sin(h)) * np.cos(x), constant(x, 0)
 
 
 def dist_floor(n):

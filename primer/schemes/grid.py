@@ -85,7 +85,10 @@ class Grid:
         return -math.pi + self.h * np.arange(self.n)
 
     def derivative(self, f, m):
-        """The m-th derivative of f by central differences of second order, m = 1 or 2."""
+        """The m-th derivative of f, of shape (..., n), by central differences of second order, m = 1 or 2."""
+        f = np.asarray(f)
+        if f.shape[-1:] != (self.n,):
+            raise ValueError(f"f must have shape (..., {self.n}) on this grid, got {f.shape}")
         return CENTRAL[m](f, self.h)
 
     def multiplier(self, xi, m):

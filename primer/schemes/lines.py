@@ -9,7 +9,7 @@ import numpy as np
 from primer.checks import real, shown
 from primer.compiled import compiled
 from primer.problems.toy import Toy
-from primer.schemes.fourier import MATRIX_UP_TO
+from primer.schemes.fourier import MATRIX_UP_TO, Fourier
 from primer.schemes.grid import CENTRAL, Grid, Stencil
 from primer.schemes.runge_kutta import RK4, RungeKutta
 
@@ -67,12 +67,12 @@ def march_lines(problem, n, dt, t_end, space=CENTRAL, time=RK4):
     ------
     TypeError, ValueError    in one sentence, for an argument that is not allowed
     """
-    if not all(hasattr(problem, part) for part in ("initial", "forcing", "rhs")):
+    if isinstance(problem, type) or not all(hasattr(problem, part) for part in ("initial", "forcing", "rhs")):
         raise TypeError(f"problem must be a Toy, a BackwardHeat or an object with their methods, got {shown(problem)}")
     grid, dt, t_end = Grid(n), real("dt", dt, above=0), real("t_end", t_end, least=0)
     if not isinstance(time, RungeKutta):
         raise TypeError(f"time must be a RungeKutta step such as RK4 or RK8, got {shown(time)}")
-    if not isinstance(space, dict) or not {1, 2} <= space.keys():
+    if not isinstance(space, dict) or not all(isinstance(space.get(m), Stencil | Fourier) for m in (1, 2)):
         raise TypeError(f"space must be a table of derivatives such as CENTRAL or FOURIER, got {shown(space)}")
     if not t_end / dt < 2**53:
         raise ValueError(f"dt must be more than t_end/2^53, got {dt!r} with t_end {t_end!r}")

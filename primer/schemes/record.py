@@ -10,6 +10,7 @@ from primer.checks import integer, real, shown
 from primer.schemes.grid import Grid
 from primer.schemes.run import Run, Seed, Stop
 
+_SMALLEST = float(np.finfo(np.float32).tiny)  # a smaller step would be 0 in single precision
 MAX_BYTES = 2**31  # a run that would keep more than this is refused before it starts
 
 
@@ -38,7 +39,9 @@ class Plan:
 
     def start(self, problem):
         """(h, x, state, log) before the first step: state of shape (fields, n)."""
-        if not all(hasattr(problem, part) for part in ("fields", "initial", "steady", "forcing", "rhs")):
+        if isinstance(problem, type) or not all(
+            hasattr(problem, part) for part in ("fields", "initial", "steady", "forcing", "rhs")
+        ):
             raise TypeError(
                 f"problem must be a Toy, a BackwardHeat or an object with their methods, got {shown(problem)}"
             )
@@ -46,11 +49,12 @@ class Plan:
             raise ValueError(f"seed field must be one of {', '.join(problem.fields)}, got {shown(self.seed.field)}")
         self.refuse_if_large(len(problem.fields))
         h, x = self.numbers.grid(self.grid.n)
-        state = [self.numbers.array(f) for f in problem.initial(x)]
-        if self.seed:
-            state[problem.fields.index(self.seed.field)] += self.numbers.array(self.seed(x))
-        log = Log(self, self.numbers.array(problem.steady(x)))
-        log.watch(0, np.array(state))
+        with np.errstate(over="ignore", invalid="ignore"):  # data beyond the largest number are a blow-up at t = 0
+            state = [self.numbers.array(f) for f in problem.initial(x)]
+            if self.seed:
+                state[problem.fields.index(self.seed.field)] += self.numbers.array(self.seed(x))
+            log = Log(self, self.numbers.array(problem.steady(x)))
+            log.watch(0, np.array(state))
         return h, x, np.array(state), log
 
 
@@ -60,8 +64,14 @@ def plan(n, dt, t_end, record_every, snapshots, seed, blow_up_at, dtype, digits)
     dt, t_end = real("dt", dt, above=0), real("t_end", t_end, least=0)
     if not t_end / dt < 2**53:
         raise ValueError(f"dt must be more than t_end/2^53, got {dt!r} with t_end {t_end!r}")
+    if dt < _SMALLEST:
+        raise ValueError(f"dt must be >= {_SMALLEST:.2g}, got {dt!r}")
     steps = round(t_end / dt)
-    every = max(1, steps // 1000) if record_every is None else integer("record_every", record_every, least=1)
+    every = (
+        max(1, steps // 1000)
+        if record_every is None
+        else min(integer("record_every", record_every, least=1), steps + 1)
+    )
     if isinstance(snapshots, str) or not np.iterable(snapshots):
         raise TypeError(f"snapshots must be a sequence of times, got {shown(snapshots)}")
     times = tuple(sorted({real("snapshots", time, least=0, most=t_end) for time in snapshots}))
@@ -71,7 +81,7 @@ def plan(n, dt, t_end, record_every, snapshots, seed, blow_up_at, dtype, digits)
 
 
 def _seed(grid, seed):
-    if isinstance(seed, tuple):
+    if isinstance(seed, tuple) and 2 <= len(seed) <= 4:
         seed = Seed(*seed)
     if seed is not None and not isinstance(seed, Seed):
         raise TypeError(f"seed must be a Seed, or its (mode, amplitude, field) as a tuple, or None, got {shown(seed)}")

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from primer.checks import integer, real, shown
 from primer.problems.heat import BackwardHeat
 from primer.schemes.discrete import amplification
 from primer.schemes.ftcs import ftcs
@@ -48,7 +49,13 @@ def refine(problem, ns, dt=1e-3, seed=None, **options):
     def at(n, value):
         return value(n) if callable(value) and not isinstance(value, Seed) else value
 
-    return Refinement(tuple(ftcs(problem, n, at(n, dt), seed=at(n, seed), **options) for n in ns))
+    return Refinement(tuple(ftcs(problem, n, at(n, dt), seed=at(n, seed), **options) for n in _grids(ns)))
+
+
+def _grids(ns):
+    if isinstance(ns, str) or not np.iterable(ns):
+        raise TypeError(f"ns must be a sequence of grids, such as [50, 100], got {shown(ns)}")
+    return tuple(ns)
 
 
 @dataclass(frozen=True, eq=False)
@@ -79,6 +86,12 @@ def heat_onset(ns, courant=0.02, tolerance=1e-2, sawtooth=0.0):
     tolerance        the departure that counts as visible, where |u| is about 1
     sawtooth         amplitude of a stated seed (-1)^j; with 0 round-off is the only seed
     """
+    ns, courant = _grids(ns), real("courant", courant, above=0)
+    tolerance = real("tolerance", tolerance, least=1e-15, most=1)
+    sawtooth = real("sawtooth", sawtooth, least=0, below=tolerance)
+    for n in ns:
+        if integer("n", n, least=4) % 4:
+            raise ValueError(f"ns must be multiples of four points, got {n}")
     rate = math.log1p(4 * courant)
     steps = round(math.log(1e4 * tolerance / (sawtooth or 1e-18)) / rate)  # round-off starts near 1e-17
     runs, departures, times = [], [], []
