@@ -54,22 +54,14 @@ def test_compiled_and_interpreted_loops_see_the_same_steps(a, eps, n, dt, every,
     assert_same_run(*runs)
 
 
-@pytest.mark.parametrize(
-    ("problem", "n", "seed", "blow_up_at"),
-    [
-        # v starts from rest and accelerates u: min u falls like t^2, the worst case for a look ahead.
-        (Toy(0.3, 0), 4, Seed(1, 0.5, "v", -np.pi / 2), 1e3),
-        # u is off by half of blow_up_at everywhere, so that |v| reaches sqrt(3)/2 of it while Dist reaches all of it.
-        (Toy(-5.0, 1.0), 4, Seed(0, -1.5, "u", 0.0), 3.0),
-    ],
-)
-def test_a_look_ahead_is_not_late(problem, n, seed, blow_up_at, monkeypatch):
+def test_a_look_ahead_is_not_late(monkeypatch):
+    """v starts from rest and accelerates u: min u falls like t^2, the worst case for a look ahead."""
     runs = []
     for fast in (True, False):
         monkeypatch.setattr(scheme, "_compiles", lambda problem, asked, fast=fast: fast)
-        runs.append(ftcs(problem, n, 1e-3, 2.0, 10_000, seed=seed, blow_up_at=blow_up_at))
+        runs.append(ftcs(Toy(0.3, 0), 4, 1e-3, 2.0, 10_000, seed=Seed(1, 0.5, "v", -np.pi / 2)))
     assert_same_run(*runs)
-    assert runs[0].t_first_negative > 0 or runs[0].stop is Stop.BLEW_UP
+    assert runs[0].t_first_negative > 0
 
 
 def test_other_problems_and_numbers_are_marched_one_by_one():

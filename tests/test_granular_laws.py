@@ -198,3 +198,9 @@ def test_what_is_not_physical_is_refused_in_one_sentence(make, says):
 def test_what_is_not_a_number_or_a_law_is_a_type_error(make):
     with pytest.raises(TypeError):
         make()
+
+
+@pytest.mark.parametrize("law", [3, "CIDR", MuI(0.3, 0.6, 0.3), type(LAWS[3])])
+def test_what_is_no_law_is_named(law):
+    with pytest.raises(TypeError, match="law must have the functions Y, Y_p, "):
+        admit(law, BaseState(0.2, 0.55, 0.1))

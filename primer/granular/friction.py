@@ -51,11 +51,11 @@ class MuI:
 
     def dmu(self, I):
         """mu'(I) = (mu2 - mu1)/I0/(1 + I/I0)^2 > 0."""
-        return (self.mu2 - self.mu1) / self.I0 / (1 + self._ratio(I)) ** 2
+        return (self.mu2 - self.mu1) / self.I0 * (1 / (1 + self._ratio(I))) ** 2
 
     def ddmu(self, I):
         """mu''(I) = -2 (mu2 - mu1)/I0^2/(1 + I/I0)^3 < 0."""
-        return -2 * (self.mu2 - self.mu1) / self.I0**2 / (1 + self._ratio(I)) ** 3
+        return -2 * (self.mu2 - self.mu1) / self.I0**2 * (1 / (1 + self._ratio(I))) ** 3
 
     def alpha(self, I):
         """alpha(I) of eq. (Cmu-formulas-for-alpha)."""
