@@ -13,6 +13,7 @@ from primer.schemes.fourier import MATRIX_UP_TO, Fourier
 from primer.schemes.grid import CENTRAL, Grid, Stencil
 from primer.schemes.runge_kutta import RK4, RungeKutta
 
+MAX_STEPS = 10**7  # a march of more steps than this (some minutes) is refused before it starts
 _BLOWN_UP = 1e100  # growth over the initial data at which a march is given up
 
 
@@ -74,8 +75,10 @@ def march_lines(problem, n, dt, t_end, space=CENTRAL, time=RK4):
         raise TypeError(f"time must be a RungeKutta step such as RK4 or RK8, got {shown(time)}")
     if not isinstance(space, dict) or not all(isinstance(space.get(m), Stencil | Fourier) for m in (1, 2)):
         raise TypeError(f"space must be a table of derivatives such as CENTRAL or FOURIER, got {shown(space)}")
-    if not t_end / dt < 2**53:
-        raise ValueError(f"dt must be more than t_end/2^53, got {dt!r} with t_end {t_end!r}")
+    if not t_end / dt <= MAX_STEPS:
+        raise ValueError(
+            f"dt must be >= t_end/{MAX_STEPS:.0e} (more steps take too long), got {dt!r} with t_end {t_end!r}"
+        )
     # A quotient that rounding leaves a little above a whole number is that number.
     steps = math.ceil(t_end / dt * (1 - 1e-12))
     step = t_end / steps if steps else dt

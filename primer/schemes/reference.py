@@ -9,10 +9,8 @@ from primer.checks import real, real_array, shown
 from primer.problems.toy import Toy
 from primer.schemes.fourier import FOURIER, interpolate, transfer
 from primer.schemes.grid import Grid
-from primer.schemes.lines import stable_step, trace
+from primer.schemes.lines import MAX_STEPS, stable_step, trace
 from primer.schemes.runge_kutta import RK8
-
-MAX_STEPS = 10**7  # a march of more steps than this (some minutes) is refused before it starts
 
 # Grid points tried in turn, each judged by the next. Multiples of 8 fill a processor's vector registers.
 _POINTS = (8, 16, 24, 32, 48, 64, 96, 128)
