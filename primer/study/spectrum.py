@@ -48,6 +48,21 @@ class Mode:
     u, v      (n,) complex fields, scaled to max |v| = 1; the real part is a perturbation
     """
 
+    def content(self, u, v):
+        """How much of this mode there is in a small perturbation (u, v): it grows to 2 Re(content e^{lam t} mode).
+
+        The projection is by the mode itself, under a form that makes the Jacobian symmetric::
+
+            <f, g> = sum f_v D2 g_v - f_u D2 g_u
+
+        If lam is real, the factor 2 is not there.
+        """
+        return self._form(u, v) / self._form(self.u, self.v)
+
+    def _form(self, u, v):
+        second = Grid(self.n).derivative(np.stack((u, v)), 2)
+        return self.v @ second[1] - self.u @ second[0]
+
     n: int
     lam: complex
     parity: Parity
@@ -72,9 +87,13 @@ def depth(toy, n):
     return 4 * toy.eps * (h / math.sin(h) - toy.a) / h**2 - 1
 
 
-def fastest(toy, n):
-    """The :class:`Mode` of largest Re lam about the discrete steady state."""
-    lam, parity, y = max((_rightmost(toy, n, parity) for parity in Parity), key=lambda found: found[0].real)
+def fastest(toy, n, dt=0.0):
+    """The :class:`Mode` that grows fastest about the discrete steady state, marched by the scheme with step dt.
+
+    With dt = 0 time is continuous. A mode that grows with dt but not without it is of the scheme.
+    """
+    found = (_rightmost(toy, n, parity, dt) for parity in Parity)
+    lam, parity, y = max(found, key=lambda mode: rate(mode[0], dt))
     grid, (k, s, _, _) = Grid(n), _form(toy, n, parity)
     half = 2 * np.sin(k * grid.h / 2) / grid.h
     y = y / half
@@ -92,9 +111,14 @@ def fastest(toy, n):
     return Mode(n, complex(lam), parity, grid.x, grid.derivative(v, 1) / lam, v)
 
 
-def growth(toy, n):
-    """The largest Re lam about the discrete steady state: perturbations grow by e^{Re lam t}. Dimensionless."""
-    return max(_rightmost(toy, n, parity)[0].real for parity in Parity)
+def growth(toy, n, dt=0.0):
+    """The :func:`rate` of the :func:`fastest` mode. Dimensionless."""
+    return max(float(rate(_rightmost(toy, n, parity, dt)[0], dt)) for parity in Parity)
+
+
+def rate(lam, dt=0.0):
+    """ln|1 + dt lam|/dt, the growth per unit time that steps of dt make of a growth rate lam; Re lam for dt = 0."""
+    return np.log(np.abs(1 + dt * lam)) / dt if dt else np.real(lam)
 
 
 def _form(toy, n, parity):
@@ -113,8 +137,8 @@ def _form(toy, n, parity):
     return k, s, 1 + toy.eps * diagonal, toy.eps * off
 
 
-def _rightmost(toy, n, parity):
-    """(lam, parity, y) of the eigenvalue of one parity with the largest real part."""
+def _rightmost(toy, n, parity, dt):
+    """(lam, parity, y) of the eigenvalue of one parity with the largest rate."""
     _, s, diagonal, off = _form(toy, n, parity)
     s = s[s > 0]
     if n <= _DENSE:
@@ -125,26 +149,35 @@ def _rightmost(toy, n, parity):
         matrix[s.size :, s.size :] = -(np.diag(diagonal) + np.diag(off, 1) + np.diag(off, -1))
         lam, vectors = np.linalg.eig(matrix)
     else:
-        found = [_near(s, diagonal, off, shift) for shift in _shifts(toy, n)]
+        found = [_near(s, diagonal, off, shift) for shift in _shifts(toy, n, dt)]
         lam, vectors = (np.concatenate(part, axis=-1) for part in zip(*found, strict=True))
-    best = np.argmax(lam.real)
+    best = np.argmax(rate(lam, dt))
     y = vectors[s.size :, best]
     return (lam[best], parity, y) if lam[best].imag >= 0 else (lam[best].conj(), parity, y.conj())
 
 
-def _shifts(toy, n):
-    """Where to look for the rightmost eigenvalues: the two places where a wave packet at x = 0 does not drift.
+def _shifts(toy, n, dt):
+    """Where to look for the eigenvalues that grow fastest.
 
-    Near the sawtooth, v = (-1)^j w(x) with w'' + lam (Q - lam - K x^2) w = 0, K = 2 eps c/h^2, so that the ground state
-    has sqrt(lam) (Q - lam) = sqrt(K). Near k = n/4, where s = 1/h is largest, lam = i/h + (Q - 1)/4 to leading order,
-    from which the finite width of a packet takes away.
+    The two places where a wave packet at x = 0 does not drift: near the sawtooth, v = (-1)^j w(x) with
+    w'' + lam (Q - lam - K x^2) w = 0, K = 2 eps c/h^2, so that the ground state has sqrt(lam) (Q - lam) = sqrt(K); and
+    near k = n/4, where s = 1/h is largest, lam = i/h + (Q - 1)/4 to leading order, from which the finite width of a
+    packet takes away. And with a finite step the two bounds of :mod:`primer.study.stability`: the wave that is first to
+    grow at x = 0, and the stiffest mode, the sawtooth at x = -pi.
     """
     h, Q = Grid(n).h, depth(toy, n)
     K = 2 * toy.eps / (h * math.sin(h))
     roots = np.roots([1, 0, -Q, math.sqrt(K)])
     lam = max(roots[roots.real > 0] ** 2, key=lambda root: root.real)
-    sawtooth, quarter = complex(lam.real, abs(lam.imag)), complex(Q - 1, 4 / h) / 4
-    return (sawtooth, quarter) if Q > 0.8 else (sawtooth,)
+    shifts = [complex(lam.real, abs(lam.imag))]
+    if Q > 0.8 or dt:
+        shifts.append(complex(Q - 1, 4 / h) / 4)
+    if dt:
+        S = 1 / (1 + math.sqrt(max(-Q, 0)))
+        b = 1 - (Q + 1) * S
+        shifts.append(complex(-b / 2, math.sqrt(abs(4 * S * (1 - S) / h**2 - b * b / 4)) + 1e-3))
+        shifts.append(complex(-1 - 4 * toy.eps * (toy.a + h / math.sin(h)) / h**2))
+    return shifts
 
 
 def _near(s, diagonal, off, shift, steps=30):
