@@ -65,7 +65,7 @@ def forecast(toy, n, dt, t_end, seed=None, epsilon=2.0**-52, blow_up_at=1e3):
             cause = _SMOOTH if not away < blow_up_at else waves.largest()
             return Forecast(t + dt, cause == _SEED, cause == _SMOOTH, t_negative)
         if m == 0 or t > t_still + _AFTER:
-            left, cause = waves.outlook(fastest(toy, n, dt), dt)
+            left, cause = waves.outlook(fastest(toy, n, dt), dt, t)
             return Forecast(t + left, cause == _SEED, cause == _SMOOTH, t_negative)
         if away < _SETTLED and not smooth.still:  # from here on the linear equations serve for everything
             t_still = t
@@ -163,18 +163,19 @@ class _Waves:
     def log_sizes(self):
         return np.logaddexp.reduce(self._amplitudes(), axis=0)
 
-    def outlook(self, mode, dt):
-        """(time left until ``mode`` has grown to 1, where most of it comes from) by steps of dt; infinite if it decays."""
-        half, fields = next(
-            (half, field)
-            for half, field, parity in zip(self.halves, self.fields, Parity, strict=True)
-            if parity is mode.parity
-        )
-        contents = np.array([abs(mode.content(*half.full(field))) for field in fields])
+    def outlook(self, mode, dt, t):
+        """(time left until ``mode`` has grown to 1, where most of it comes from) by steps of dt; infinite if never.
+
+        Once the smooth solution's own steps, dt e^{-t/2}, are lost in the last bit, nothing else moves u either unless
+        its steps dt |lam| |u| are about that bit: a slow mode that has not come so far by then is held still.
+        """
+        i = list(Parity).index(mode.parity)
+        contents = np.array([abs(mode.content(*self.halves[i].full(field))) for field in self.fields[i]])
         logs = np.log(np.maximum(2 * contents * np.abs(mode.u).max(), 1e-300)) + self.logs
-        growth = float(rate(mode.lam, dt))
-        left = -float(np.logaddexp.reduce(logs)) / growth if growth > 0 else math.inf
-        return max(left, 0.0), int(np.argmax(logs))
+        size, cause, growth = float(np.logaddexp.reduce(logs)), int(np.argmax(logs)), float(rate(mode.lam, dt))
+        t_lock = max(2 * math.log(2 * dt / self.epsilon), t)
+        held = size + growth * (t_lock - t) + math.log(dt * abs(mode.lam)) < math.log(self.epsilon)
+        return (math.inf if growth <= 0 or held else max(-size / growth, 0.0)), cause
 
     def largest(self):
         return int(np.argmax(self._amplitudes()[:, 0]))
