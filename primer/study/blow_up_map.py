@@ -39,17 +39,22 @@ class BlowUpMap:
     t_seeded: np.ndarray
 
     @property
+    def done(self):
+        """(N,) whether all base states have been marched on the grid."""
+        return ~np.isnan(self.t_blow_up).any(axis=0)
+
+    @property
     def from_round_off(self):
         """(A, N) True where the plain run blows up and only round-off makes it.
 
-        A smooth solution that runs away by itself does not care about a seed as small as this one, and does so at the
-        same time with it; growth from round-off is overtaken by it.
+        The seed is a little above round-off: growth from round-off is overtaken by it, and the blow-up comes sooner. A
+        smooth solution that runs away by itself has long left both behind.
         """
         return np.isfinite(self.t_blow_up) & (self.t_seeded < 0.98 * self.t_blow_up)
 
 
 def blow_up_map(
-    a_values, n_values, eps=0.01, t_end=100.0, dt=1e-3, seed=1e-8, table=None, executor=None, progress=True
+    a_values, n_values, eps=0.01, t_end=100.0, dt=1e-3, seed=1e-12, table=None, executor=None, progress=True
 ):
     """March the toy system for every base state on every grid, and what blows up once more from a stated seed.
 

@@ -110,7 +110,7 @@ def _only_the_scheme(toy, n, dt, t_end, seed, epsilon):
     """Whether with a small enough step the run would live."""
     # At a - 1.2 < u < a + 1.2 the limit is at least that of u = 0, or that of the stiffest mode.
     small = _SMALL * min((math.pi / n) ** 2, stable_dt(toy, n, max(toy.a + 1.2, 0.0)))
-    return dt > small and forecast(toy, n, small, t_end, seed, epsilon).t_blow_up > t_end
+    return dt > small and forecast(toy, n, small, t_end, seed, epsilon, locks=False).t_blow_up > t_end
 
 
 def _reason(kind, toy, n, dt, t_end, found, rate):

@@ -46,10 +46,11 @@ class Forecast:
     t_first_negative: float | None
 
 
-def forecast(toy, n, dt, t_end, seed=None, epsilon=2.0**-52, blow_up_at=1e3):
+def forecast(toy, n, dt, t_end, seed=None, epsilon=2.0**-52, blow_up_at=1e3, locks=True):
     """March the smooth solution and its perturbations towards ``t_end``; see :class:`Forecast`.
 
-    ``seed`` is a ``Seed`` or None, ``epsilon`` the distance from 1 to the next number of the run's arithmetic.
+    ``seed`` is a ``Seed`` or None, ``epsilon`` the distance from 1 to the next number of the run's arithmetic, and
+    ``locks`` whether a change that is lost in the last bit is lost.
     """
     smooth = _Smooth(toy, n)
     waves = _Waves(toy, n, seed, epsilon)
@@ -65,7 +66,7 @@ def forecast(toy, n, dt, t_end, seed=None, epsilon=2.0**-52, blow_up_at=1e3):
             cause = _SMOOTH if not away < blow_up_at else waves.largest()
             return Forecast(t + dt, cause == _SEED, cause == _SMOOTH, t_negative)
         if m == 0 or t > t_still + _AFTER:
-            left, cause = waves.outlook(fastest(toy, n, dt), dt, t)
+            left, cause = waves.outlook(fastest(toy, n, dt), dt, t, locks)
             return Forecast(t + left, cause == _SEED, cause == _SMOOTH, t_negative)
         if away < _SETTLED and not smooth.still:  # from here on the linear equations serve for everything
             t_still = t
@@ -157,14 +158,18 @@ class _Waves:
 
     def _amplitudes(self):
         """(3, 2) logarithms of max |u| and max |v|."""
-        sizes = np.maximum(*(np.abs(half.full(f)).max(axis=-1) for half, f in zip(self.halves, self.fields, strict=True)))
+        sizes = np.maximum(
+            *(np.abs(half.full(f)).max(axis=-1) for half, f in zip(self.halves, self.fields, strict=True))
+        )
         return np.log(np.maximum(sizes, 1e-300)) + self.logs[:, None]
 
     def log_sizes(self):
         return np.logaddexp.reduce(self._amplitudes(), axis=0)
 
-    def outlook(self, mode, dt, t):
-        """(time left until ``mode`` has grown to 1, where most of it comes from) by steps of dt; infinite if never.
+    def outlook(self, mode, dt, t, locks):
+        """(time left until ``mode`` takes over, where most of it comes from) by steps of dt; infinite if never.
+
+        That is at about 1, or sooner where its own growth is slow: at size A, the square of A counts against it.
 
         Once the smooth solution's own steps, dt e^{-t/2}, are lost in the last bit, nothing else moves u either unless
         its steps dt |lam| |u| are about that bit: a slow mode that has not come so far by then is held still.
@@ -175,7 +180,9 @@ class _Waves:
         size, cause, growth = float(np.logaddexp.reduce(logs)), int(np.argmax(logs)), float(rate(mode.lam, dt))
         t_lock = max(2 * math.log(2 * dt / self.epsilon), t)
         held = size + growth * (t_lock - t) + math.log(dt * abs(mode.lam)) < math.log(self.epsilon)
-        return (math.inf if growth <= 0 or held else max(-size / growth, 0.0)), cause
+        if growth <= 0 or (locks and held):
+            return math.inf, cause
+        return max((min(0.0, math.log(growth) / 2) - size) / growth, 0.0), cause
 
     def largest(self):
         return int(np.argmax(self._amplitudes()[:, 0]))
@@ -188,6 +195,8 @@ def _stride(eps, u, h, dt):
         stride = min(stride, _GROWTH / sawtooth)
     if dt > frozen_dt(h, u.min(), eps):  # waves grow, by dt or by u
         stride = min(stride, _WAVE * h)
-    if dt > 0.95 * frozen_dt(h, max(u.max(), 0.0), eps):  # the stiffest modes overshoot: only the scheme does as it does
+    if (
+        dt * (1 + 4 * eps * max(u.max(), 0.0) / h**2) > 1.9
+    ):  # the stiffest modes overshoot: only the scheme does as it does
         stride = dt
     return max(1, int(stride / dt))

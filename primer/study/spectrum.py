@@ -141,7 +141,9 @@ def _rightmost(toy, n, parity, dt):
     """(lam, parity, y) of the eigenvalue of one parity with the largest rate."""
     _, s, diagonal, off = _form(toy, n, parity)
     s = s[s > 0]
-    if n <= _DENSE:
+    if toy.eps == 0:  # every wavenumber by itself
+        lam, vectors = np.sqrt(0.25 - s**2 + 0j) - 0.5, np.eye(s.size + diagonal.size, s.size, k=-s.size)
+    elif n <= _DENSE:
         size = s.size + diagonal.size
         matrix = np.zeros((size, size))
         matrix[range(s.size), range(s.size, 2 * s.size)] = s
@@ -168,8 +170,7 @@ def _shifts(toy, n, dt):
     h, Q = Grid(n).h, depth(toy, n)
     K = 2 * toy.eps / (h * math.sin(h))
     roots = np.roots([1, 0, -Q, math.sqrt(K)])
-    lam = max(roots[roots.real > 0] ** 2, key=lambda root: root.real)
-    shifts = [complex(lam.real, abs(lam.imag))]
+    shifts = [complex(lam.real, abs(lam.imag)) for lam in sorted(roots[roots.real > 1e-9] ** 2, key=np.real)[-1:]]
     if Q > 0.8 or dt:
         shifts.append(complex(Q - 1, 4 / h) / 4)
     if dt:
@@ -202,8 +203,11 @@ def _near(s, diagonal, off, shift, steps=30):
             H[: i + 1, i] += overlap
             w -= overlap @ basis[: i + 1]
         H[i + 1, i] = np.linalg.norm(w)
+        if H[i + 1, i] < 1e-13 * np.abs(H[: i + 1, i]).max():  # the space is invariant: all is found
+            steps = i + 1
+            break
         basis[i + 1] = w / H[i + 1, i]
-    mu, vectors = np.linalg.eig(H[:-1])
-    good = np.abs(H[-1, -1] * vectors[-1]) < 1e-9 * np.abs(mu)
+    mu, vectors = np.linalg.eig(H[:steps, :steps])
+    good = np.abs(H[steps, steps - 1] * vectors[-1]) < 1e-9 * np.abs(mu)
     good[np.argmax(np.abs(mu))] = True  # the nearest one of all is the safest
-    return shift + 1 / mu[good], basis[:-1].T @ vectors[:, good]
+    return shift + 1 / mu[good], basis[:steps].T @ vectors[:, good]

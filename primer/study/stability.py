@@ -34,7 +34,7 @@ def frozen_dt(h, u, eps):
 
     Returns
     -------
-    float, or an array of the shape of u: h^2 at eps = 0
+    float, or an array of the shape of u: min(h^2, 2) at eps = 0
     """
     h, eps, u = real("h", h, above=0), real("eps", eps, least=0), real_array("u", u)
     g = 4 * eps * u / h**2
@@ -48,7 +48,7 @@ def frozen_dt(h, u, eps):
 def stable_dt(toy, n, u=None):
     """The largest dt for which no frozen mode of the scheme grows, at any u that the run visits; 0 if there is none.
 
-    At eps = 0 it is h^2. A blow-up with a larger dt may be of the scheme, and a smaller dt then cures it. Zero means
+    At eps = 0 it is h^2 (2, on four points). A blow-up with a larger dt may be of the scheme, and a smaller dt then cures it. Zero means
     that the sawtooth grows somewhere whatever dt: the equations are ill posed there and the grid is fine enough for a
     frozen mode to feel it (whether the grid as a whole does, :func:`primer.grid_threshold` says).
 
