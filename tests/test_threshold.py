@@ -1,4 +1,4 @@
-"""Guards the threshold of the grid: the spectrum against the dense Jacobian, that against finite differences and runs."""
+"""Guards the grid threshold: its spectrum against the dense Jacobian, that against finite differences and runs."""
 
 import math
 from dataclasses import dataclass

@@ -48,7 +48,7 @@ HARD_CASES = (
     HardCase("66 points", _PAPER, 66, 1e-3, 2000.0, Kind.ILL_POSED, True, "growth 0.09 outruns the last bit"),
     HardCase(
         "64 points, seeded", _PAPER, 64, 1e-3, 2000.0, Kind.ILL_POSED, True,
-        "a seed that is not lost in the last bit shows the growth of 0.025 that round-off could not", Seed(31, 1e-6, "v"),
+        "a seed not lost in the last bit shows the growth of 0.025 that round-off could not", Seed(31, 1e-6, "v"),
     ),
     HardCase("a = 1.05, coarse", Toy(1.05), 400, 1e-3, 100.0, Kind.TRANSIENT, False,
         "u < 0 for a while, but what grows on 400 points in that while stays small"),
@@ -72,7 +72,7 @@ HARD_CASES = (
         "u stays positive, however large eps"),
     HardCase("a very negative", Toy(-10.0), 20, 1e-3, 100.0, Kind.ILL_POSED, True, "u < 0 everywhere"),
     HardCase("odd n", Toy(-1.2341, 0.00173), 59, 1e-3, 1000.0, Kind.ILL_POSED, True,
-        "on an odd number of points the sawtooth does not close, and for a < 0 that helps it grow", Seed(28, 1e-6, "v")),
+        "on an odd number of points the sawtooth does not close, which helps it if a < 0", Seed(28, 1e-6, "v")),
     HardCase("even n", Toy(-1.2341, 0.00173), 60, 1e-3, 1000.0, Kind.HIDDEN, False,
         "one point more, and nothing grows", Seed(28, 1e-6, "v")),
     HardCase("4 points", _PAPER, 4, 1e-3, 100.0, Kind.HIDDEN, False, "the coarsest grid of all sees nothing"),

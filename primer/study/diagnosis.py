@@ -117,7 +117,7 @@ def _reason(kind, toy, n, dt, t_end, found, rate):
     source = "the seed" if found.seeded else "the smooth solution itself" if found.smooth else "round-off"
     when = f"what grows from {source} is as large as u near t = {found.t_blow_up:.3g}"
     if kind is Kind.SCHEME:
-        return f"The step dt = {dt:g} is too large for n = {n}, and {when}; a smaller one lives."
+        return f"The step dt = {dt:g} is too large for n = {n}, and {when}; a smaller one lives to the end."
     if kind is Kind.ILL_POSED:
         return f"Where u < 0 the equations are ill posed, n = {n} points see it, and {when}; no smaller dt helps."
     if kind is Kind.HIDDEN:
@@ -129,8 +129,8 @@ def _reason(kind, toy, n, dt, t_end, found, rate):
                 f"e^({rate:.3g} t): {when}, after the end."
             )
         return (
-            f"The equations are ill posed where u < 0, but on n = {n} points perturbations grow only by e^({rate:.3g} t), "
-            f"so slowly that each step of theirs is lost in the last bit."
+            f"The equations are ill posed where u < 0, but on n = {n} points perturbations grow only by "
+            f"e^({rate:.3g} t), so slowly that each step of theirs is lost in the last bit."
         )
     if kind is Kind.TRANSIENT:
         first = f"The steady state is well posed, but u dips below zero at t = {found.t_first_negative:.3g}"

@@ -110,7 +110,7 @@ class _Smooth:
         if self.still:
             return
         rates = tendency(self.u, self.v, self.u_x, self.v_x, self.v_xx, self.sin_x, self.eps)
-        full = self.half.full((self.u, self.v) + solve(stride * np.stack(rates)))
+        full = self.half.full(np.stack((self.u, self.v)) + solve(stride * np.stack(rates)))
         waves = np.fft.rfft(full)
         waves[np.abs(waves) < _FILTER * full.shape[-1]] = 0
         self.u, self.v = self.half.part(np.fft.irfft(waves, full.shape[-1]))

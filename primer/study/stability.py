@@ -48,9 +48,9 @@ def frozen_dt(h, u, eps):
 def stable_dt(toy, n, u=None):
     """The largest dt for which no frozen mode of the scheme grows, at any u that the run visits; 0 if there is none.
 
-    At eps = 0 it is h^2 (2, on four points). A blow-up with a larger dt may be of the scheme, and a smaller dt then cures it. Zero means
-    that the sawtooth grows somewhere whatever dt: the equations are ill posed there and the grid is fine enough for a
-    frozen mode to feel it (whether the grid as a whole does, :func:`primer.grid_threshold` says).
+    At eps = 0 it is h^2 (2, on four points). A blow-up with a larger dt may be of the scheme, and a smaller dt then
+    cures it. Zero means that the sawtooth grows somewhere whatever dt: the equations are ill posed there and the grid
+    is fine enough for a frozen mode to feel it (whether the grid as a whole does, :func:`primer.grid_threshold` says).
 
     Parameters
     ----------

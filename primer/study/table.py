@@ -1,4 +1,4 @@
-"""A table on disk that a sweep fills: every number to the last bit, replaced as a whole, so that it is never half written."""
+"""A table on disk that a sweep fills: replaced as a whole each time, so that it is never half written."""
 
 import csv
 import os

@@ -36,8 +36,8 @@ def grid_threshold(a, eps=0.01):
     ``frozen`` is the estimate eps (1 - a) n^2/pi^2 = 1 from coefficients frozen at x = 0. The perturbation must live in
     the well of U about x = 0, and that costs growth: ``n`` comes from the spectrum of the semi-discrete Jacobian
     (:mod:`primer.study.spectrum`). For small eps it is near ``frozen`` sqrt(r), where r is the lesser of two: the root
-    of 2 (r - 1)^3 = r/(2 (1 - a)) for modes near the sawtooth, and that of r = 2 + sqrt(eps n/pi) for those near k = n/4,
-    where the central difference D1 is flat. The first come first for a up to about 1/2, the second near a = 1.
+    of 2 (r - 1)^3 = r/(2 (1 - a)) for modes near the sawtooth, and that of r = 2 + sqrt(eps n/pi) for those near
+    k = n/4, where the central difference D1 is flat. The first come first for a up to about 1/2, the second near a = 1.
 
     With a >= 1 no fine grid is unstable; a very coarse one may be where eps is large, since its own steady state
     a - (h/sin h) cos x still dips below zero.
