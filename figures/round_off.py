@@ -1,0 +1,74 @@
+"""Round-off as the seed: digits, last bits and the order of a sum decide when the toy system blows up.
+
+(a) The same run in more and more digits, a = -1, N = 48: each digit buys the same time, ln(10)/growth. Bars: what
+diagnose foresees. (b) Stated seeds at a = 0.5, N = 80: T = c + ln(1/delta)/growth. (c) a = 0.5, N = 100: one initial
+value moved by its last bit, and an order of operations that is mirror-symmetric, so that the fastest mode, which has the
+opposite symmetry, never gets its seed.
+"""
+
+import numpy as np
+from sidecar import close, within
+
+from primer import Toy, diagnose, ftcs
+from primer.study.round_off import (
+    PRECISIONS,
+    blow_up_time,
+    mirror_symmetric,
+    one_ulp,
+    precision_ladder,
+    seed_ladder,
+)
+from primer.view.grid_dependence import draw_seeds
+from primer.view.style import STEADY, U, V, new_figure
+
+LADDER = {"toy": Toy(-1.0), "n": 48, "dt": 4e-3, "t_end": 45.0}
+PAPER = Toy(0.5)
+
+
+def compute():
+    return {
+        "ladder": {name: blow_up_time(run) for name, run in precision_ladder(**LADDER).items()},
+        "foreseen": {name: diagnose(**LADDER, **how) for name, how in PRECISIONS.items()},
+        "seeds": seed_ladder(PAPER, 80, 1e-3, 200.0, 10.0 ** -np.arange(4, 15)),
+        "plain": blow_up_time(ftcs(PAPER)),
+        "ulps": one_ulp(PAPER, 100, 1e-3, 40.0, [10, 30, 50, 70, 90]),
+        "mirror": mirror_symmetric(PAPER, 100, 1e-3, 80.0),
+    }
+
+
+def numbers(result):
+    ladder, seeds = result["ladder"], result["seeds"]
+    claims = {
+        f"t_{name.replace(' ', '_')}": within(t, 0.8 * t, 1.25 * t, "seeded by round-off") for name, t in ladder.items()
+    }
+    claims["t_longdouble"].update(low=0.75 * ladder["float64"], why="on some machines longdouble is double")
+    claims["slope_times_growth"] = within(seeds.slope * seeds.rate, 0.95, 1.05, "T = c + ln(1/delta)/growth")
+    claims["growth"] = close(seeds.rate, rtol=1e-6, why="an eigenvalue")
+    claims["t_plain"] = within(result["plain"], 12, 16, "seeded by round-off")
+    claims["t_one_ulp"] = within(np.median(result["ulps"]), 12, 16, "seeded by round-off, differently")
+    claims["t_mirror"] = within(result["mirror"], 35, 60, "only modes of the data's symmetry grow, from round-off")
+    return claims
+
+
+def draw(result):
+    figure, (left, middle, right) = new_figure(1, 3, width=11.0, title="Round-off as the seed, ε = 0.01")
+    names = list(result["ladder"])
+    for i, name in enumerate(names):
+        low, high = result["foreseen"][name].blow_up or (np.nan, np.nan)
+        left.plot([low, high], [i, i], color=STEADY, lw=6, alpha=0.35, label="foreseen" if i == 0 else None)
+    left.plot(list(result["ladder"].values()), range(len(names)), "o", color=U, label="measured")
+    left.set_yticks(range(len(names)), names)
+    left.set(title="(a) more digits buy time", xlabel="blow-up time", xlim=(0, None))
+    left.legend(loc="lower right")
+    draw_seeds(middle, result["seeds"])
+    middle.set(title="(b) stated seeds, N = 80")
+    rows = [
+        ("as the paper", [result["plain"]], "o", U),
+        ("one ulp", result["ulps"], "|", U),
+        ("mirrored", [result["mirror"]], "s", V),
+    ]
+    for i, (_, times, marker, color) in enumerate(rows):
+        right.plot(times, np.full(len(times), i), marker, color=color, ms=9 if marker == "|" else 6)
+    right.set_yticks(range(len(rows)), [name for name, *_ in rows])
+    right.set(title="(c) the last bit, the order, N = 100", xlabel="blow-up time", xlim=(0, 60), ylim=(-0.6, 2.6))
+    return figure

@@ -1,0 +1,156 @@
+"""Which base states blow up on which grids: measured, cell by cell, in a table that a sweep can resume."""
+
+import math
+from concurrent.futures import Executor, as_completed
+from dataclasses import dataclass
+
+import numpy as np
+
+from primer.checks import integer, real, real_array, shown
+from primer.problems.toy import Toy
+from primer.schemes.ensemble import ftcs_ensemble
+from primer.schemes.run import Seed, Stop
+from primer.study.stability import OVERSHOOT, stable_dt
+from primer.study.table import Table
+
+
+@dataclass(frozen=True, eq=False)
+class BlowUpMap:
+    """Measured blow-up times of the toy system over base states a (rows) and grids n (columns).
+
+    Attributes
+    ----------
+    a, n           (A,) base states and (N,) grids, as asked for
+    eps, t_end     of every run
+    dt             (N,) the step on each grid
+    seed           amplitude of the stated seed of ``t_seeded``, in the mode n//2 - 1 of u, next to the sawtooth
+    t_blow_up      (A, N) blow-up times of the plain runs, perturbed by round-off alone: infinite for a run that lives,
+                   not a number for one not made
+    t_seeded       (A, N) the same with the stated seed, for the plain runs that blow up; infinite for the others
+    """
+
+    a: np.ndarray
+    n: np.ndarray
+    eps: float
+    t_end: float
+    dt: np.ndarray
+    seed: float
+    t_blow_up: np.ndarray
+    t_seeded: np.ndarray
+
+    @property
+    def done(self):
+        """(N,) whether all base states have been marched on the grid."""
+        return ~np.isnan(self.t_blow_up).any(axis=0)
+
+    @property
+    def from_round_off(self):
+        """(A, N) True where the plain run blows up and only round-off makes it.
+
+        The seed is a little above round-off: growth from round-off is overtaken by it, and the blow-up comes sooner. A
+        smooth solution that runs away by itself has long left both behind.
+        """
+        return np.isfinite(self.t_blow_up) & (self.t_seeded < 0.98 * self.t_blow_up)
+
+
+def blow_up_map(
+    a_values, n_values, eps=0.01, t_end=100.0, dt=1e-3, seed=1e-12, table=None, executor=None, progress=True
+):
+    """March the toy system for every base state on every grid, and what blows up once more from a stated seed.
+
+    Parameters
+    ----------
+    a_values, n_values    base states, and grids of at least 4 points; each without repeats
+    eps, t_end            coefficient and end of all runs
+    dt                    the longest step; a grid on which the scheme itself would need less takes that
+                          (:func:`map_step`)
+    seed                  amplitude of the seed
+    table                 a CSV file that keeps the cells; those it holds already are not marched again. It is written
+                          after each grid, so that after Ctrl-C, which returns the map as far as it has come, or a
+                          crash, the same call goes on
+    executor              any ``concurrent.futures.Executor``, such as a process pool or
+                          ``dask.distributed.Client.get_executor()``; left out, all cores of this machine
+    progress              whether to show a progress bar, on a terminal
+
+    Returns
+    -------
+    :class:`BlowUpMap`
+
+    Raises
+    ------
+    TypeError, ValueError    in one sentence, for an argument that is not allowed
+    """
+    a = _without_repeats("a_values", [real("a_values", x) for x in real_array("a_values", a_values).ravel().tolist()])
+    n = _without_repeats("n_values", [integer("n_values", x, least=4) for x in np.ravel(n_values).tolist()])
+    eps, t_end, dt = Toy(0, eps).eps, real("t_end", t_end, least=0), real("dt", dt, above=0)
+    seed = real("seed", seed, above=0)
+    if executor is not None and not isinstance(executor, Executor):
+        raise TypeError(f"executor must be a concurrent.futures.Executor or None, got {shown(executor)}")
+    steps = [map_step(a, k, eps, dt) for k in n]
+    store = Table(table, {"eps": eps, "t_end": t_end, "seed": seed}, ("n", "dt", "a"), ("t_blow_up", "t_seeded"))
+    columns = []
+    for k, step in zip(n, steps, strict=True):
+        missing = [x for x in a if (k, step, x) not in store.rows]
+        if missing:
+            columns.append((missing, k, eps, step, t_end, seed))
+    _march(columns, executor, store, progress)
+    nothing = math.nan, math.nan
+    cells = np.array([[store.rows.get((k, step, x), nothing) for k, step in zip(n, steps, strict=True)] for x in a])
+    cells = cells.reshape(len(a), len(n), 2)
+    return BlowUpMap(np.array(a), np.array(n), eps, t_end, np.array(steps), seed, cells[..., 0], cells[..., 1])
+
+
+def map_step(a_values, n, eps, most=1e-3):
+    """A step small enough for no cell of a column to be the scheme's doing: ``most``, or 0.9 of the limit if less.
+
+    Where u is large that limit is the stiffest mode's, and where u < 0 at least h^2/4; see ``stability``.
+    """
+    top = max(max(a_values, default=0.0) + OVERSHOOT, 0.0)
+    return min(most, 0.9 * (math.pi / n) ** 2, 0.9 * stable_dt(Toy(0, eps), n, top))
+
+
+def _without_repeats(name, values):
+    if len(set(values)) < len(values):
+        raise ValueError(f"{name} must be without repeats, got {shown(values)}")
+    return values
+
+
+def _march(columns, executor, store, progress):
+    from tqdm import tqdm
+
+    with tqdm(total=sum(len(column[0]) for column in columns), unit="cell", disable=None if progress else True) as bar:
+
+        def keep(rows):
+            store.add(rows)
+            bar.update(len(rows))
+
+        waiting = []
+        try:
+            if executor is None:  # each column takes all cores
+                for column in columns:
+                    keep(_column(*column))
+            else:
+                waiting = [executor.submit(_column, *column) for column in columns]
+                for done in as_completed(waiting):
+                    keep(done.result())
+        except KeyboardInterrupt:
+            bar.set_postfix_str("interrupted")
+        finally:
+            for future in waiting:
+                future.cancel()
+
+
+def _column(a, n, eps, dt, t_end, seed):
+    """{(n, dt, a): (t_blow_up, t_seeded)} of all base states on one grid; module-level, for other processes."""
+    plain = _times(a, n, eps, dt, t_end, None)
+    lost = [x for x, t in zip(a, plain, strict=True) if t < math.inf]
+    last = max((t for t in plain if t < math.inf), default=0.0)
+    seeded = dict(zip(lost, _times(lost, n, eps, dt, last, Seed(n // 2 - 1, seed)), strict=True))
+    return {(n, dt, x): (t, seeded.get(x, math.inf)) for x, t in zip(a, plain, strict=True)}
+
+
+def _times(a, n, eps, dt, t_end, seed):
+    runs = ftcs_ensemble([Toy(x, eps) for x in a], n, dt, t_end, record_every=10**9, seed=seed)
+    if any(run.stop is Stop.INTERRUPTED for run in runs):
+        raise KeyboardInterrupt
+    return [run.t_stop if run.stop is Stop.BLEW_UP else math.inf for run in runs]

@@ -1,0 +1,75 @@
+"""The time step that the paper's scheme allows, with coefficients frozen: numerical instability, which dt cures.
+
+A mode with s^2 = sin^2(kh)/h^2 = 4 S (1 - S)/h^2 and k2 = 4 S/h^2, S = sin^2(kh/2), on a frozen u is multiplied each
+step by mu = 1 + dt lam, lam^2 + b lam + s^2 = 0, b = 1 + eps u k2. By Jury's conditions both |mu| <= 1 iff::
+
+    dt s^2 <= b    and    4 - 2 b dt + s^2 dt^2 >= 0
+
+With g = 4 eps u/h^2, the first is tightest over S at S = 1/(1 + sqrt(1 + g)), the second at the sawtooth S = 1::
+
+    dt <= (h^2/4) (1 + sqrt(1 + g))^2    and    dt <= 2/(1 + g)
+
+The first bound grows with u and the second falls. Where g < -1 the sawtooth has b < 0: it grows for every dt > 0, the
+ill-posedness as this grid sees it, and the finer the grid the faster.
+"""
+
+import math
+
+import numpy as np
+
+from primer.checks import real, real_array
+from primer.schemes.discrete import amplification
+from primer.schemes.grid import Grid
+
+# max m of u = a - m cos x at eps = 0: 1 + e^{-t/2} cos(pi/6) at t = (5 pi/3)/sqrt(3), where m' = 0.
+OVERSHOOT = 1 + math.sqrt(3) / 2 * math.exp(-5 * math.pi / (6 * math.sqrt(3)))
+
+
+def frozen_dt(h, u, eps):
+    """The largest dt for which no mode grows on spacing h with u frozen; 0 where it is ill posed for every dt.
+
+    Parameters
+    ----------
+    h, u, eps    spacing > 0, the frozen u, the coefficient >= 0; u of any shape
+
+    Returns
+    -------
+    float, or an array of the shape of u: min(h^2, 2) at eps = 0
+    """
+    h, eps, u = real("h", h, above=0), real("eps", eps, least=0), real_array("u", u)
+    g = 4 * eps * u / h**2
+    well = np.maximum(1 + g, 0)
+    with np.errstate(divide="ignore"):
+        dt = np.minimum(h**2 / 4 * (1 + np.sqrt(well)) ** 2, 2 / well)
+    dt = np.where(1 + g < 0, 0.0, dt)
+    return float(dt) if dt.ndim == 0 else dt
+
+
+def stable_dt(toy, n, u=None):
+    """The largest dt for which no frozen mode of the scheme grows, at any u that the run visits; 0 if there is none.
+
+    At eps = 0 it is h^2 (2, on four points). A blow-up with a larger dt may be of the scheme, and a smaller dt then
+    cures it. Zero means that the sawtooth grows somewhere whatever dt: the equations are ill posed there and the grid
+    is fine enough for a frozen mode to feel it (whether the grid as a whole does, :func:`primer.grid_threshold` says).
+
+    Parameters
+    ----------
+    toy, n    the system and its grid
+    u         the values of u that count; left out, those of the solution for eps = 0: u = a - m(t) cos x passes
+              through a -+ 1.1910 before it settles to a -+ 1
+    """
+    values = real_array("u", u if u is not None else toy.a + np.array([-OVERSHOOT, OVERSHOOT]))
+    # Both bounds are monotonic in u: the least and the greatest u decide.
+    return float(np.min(frozen_dt(Grid(n).h, np.array([values.min(), values.max()]), toy.eps)))
+
+
+def amplification_over_modes(toy, n, dt, u):
+    """(k, factors): |1 + dt lam| of every wavenumber k = 0 ... n/2 on a frozen u, the larger root first; (n//2 + 1, 2).
+
+    A value over 1 that goes down to 1 and below as dt is halved is numerical instability; one whose logarithm per unit
+    time tends to Re lam > 0 is ill-posedness.
+    """
+    grid = Grid(n)
+    k = np.arange(grid.n // 2 + 1)
+    symbol = toy.symbol(k.astype(float), np.float64(real("u", u)), multiplier=grid.multiplier)
+    return k, np.abs(amplification(symbol, dt))

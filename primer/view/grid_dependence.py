@@ -1,0 +1,67 @@
+"""Pictures of grid dependence: the map of blow-ups over its thresholds, ladders of precision and seeds, the cure."""
+
+import numpy as np
+from matplotlib.colors import LogNorm
+
+from primer.view.style import ILL, STEADY, U, V
+
+
+def draw_map(ax, result, thresholds=()):
+    """Blow-up times over a and n, with the thresholds (``GridThreshold``) over them; dots: only round-off makes it."""
+    times = np.where(np.isfinite(result.t_blow_up), result.t_blow_up, np.nan)
+    image = ax.pcolormesh(result.n, result.a, times, norm=LogNorm(1, 100), cmap="viridis_r", shading="nearest")
+    i, j = np.nonzero(result.from_round_off)
+    ax.plot(result.n[j], result.a[i], ".", color="black", ms=1.5, label="only round-off makes it")
+    smooth = np.isfinite(result.t_blow_up) & ~result.from_round_off
+    i, j = np.nonzero(smooth)
+    ax.plot(result.n[j], result.a[i], "x", color=V, ms=4, label="the smooth solution runs away")
+    a = [found.a for found in thresholds]
+    ax.plot([found.n for found in thresholds], a, color=V, lw=2, label="first unstable grid (Jacobian)")
+    ax.plot([found.frozen for found in thresholds], a, color=V, ls="--", lw=1.4, label="frozen: π/√(ε(1−a))")
+    ax.axhline(1, color=STEADY, ls=":", lw=1.2)
+    ax.set(xlabel="N", ylabel="a", xlim=(result.n.min(), result.n.max()), ylim=(result.a.min(), result.a.max()))
+    return image
+
+
+def draw_mode(ax, mode):
+    """The real part of a mode's u and v; where it lives is where the steady u is least."""
+    ax.plot(mode.x, mode.v.real, color=V, ls="--", lw=1, label="v")
+    ax.plot(mode.x, mode.u.real, color=U, lw=1, label="u")
+    ax.set(xlabel="x", xlim=(-np.pi, np.pi))
+    ax.set_xticks([-np.pi, 0, np.pi], [r"$-\pi$", "0", r"$\pi$"])
+    ax.legend(loc="upper right")
+
+
+def draw_seeds(ax, ladder):
+    """Blow-up times against the seed, and the line of slope 1/growth through them."""
+    amplitudes = ladder.amplitudes
+    ax.semilogx(amplitudes, ladder.times, "o", color=U, label="measured")
+    ax.semilogx(
+        amplitudes,
+        ladder.c + ladder.slope * np.log(1 / amplitudes),
+        color=STEADY,
+        label=f"slope {ladder.slope:.3f};  1/growth = {1 / ladder.rate:.3f}",
+    )
+    ax.set(xlabel="amplitude δ of the seed", ylabel="blow-up time")
+    ax.legend()
+
+
+def draw_recovery(ax, result, parameter):
+    """Error against the cut-off or beta, one curve a level of noise; thin: expected; grey: without noise."""
+    for noise, error, expected, marker in zip(result.noise, result.error, result.expected, "osv^D", strict=False):
+        (line,) = ax.plot(result.parameters, error, marker, ms=3.5, label=f"noise {noise:.0e}")
+        ax.plot(result.parameters, expected, color=line.get_color(), lw=1)
+    ax.plot(result.parameters, result.bias, color=STEADY, ls=":", label="no noise")
+    ax.set(xlabel=parameter, ylabel="rms error", yscale="log")
+    ax.legend()
+
+
+def draw_answers(ax, x, profile, answers):
+    """What is recovered with each parameter, over the true profile; ``answers`` maps labels to samples."""
+    ax.axhline(0, color=ILL, lw=0.8)
+    ax.plot(x, profile, color=STEADY, ls=":", lw=2, label="true")
+    for (label, samples), ls in zip(answers.items(), ("-", "--", "-."), strict=False):
+        ax.plot(x, samples, ls=ls, lw=1.3, label=label)
+    ax.set(xlabel="x", xlim=(-np.pi, np.pi), ylim=(-2.6, 2.6))
+    ax.set_xticks([-np.pi, 0, np.pi], [r"$-\pi$", "0", r"$\pi$"])
+    ax.legend(loc="upper right")

@@ -1,0 +1,181 @@
+"""Guards diagnose: right about random scenes that it has not seen, the interval, the hard cases, and the strides."""
+
+import math
+
+import numpy as np
+import pytest
+
+from primer import Seed, Stop, Toy, diagnose, ftcs
+from primer.schemes.discrete import discrete_steady
+from primer.schemes.grid import Grid
+from primer.study.catalogue import HARD_CASES
+from primer.study.diagnosis import Kind
+from primer.study.leap import Half
+from primer.study.spectrum import jacobian
+
+
+def scenes(count, seed, logarithmic):
+    random = np.random.default_rng(seed)
+    for _ in range(count):
+        a, n = random.uniform(-1, 2), int(random.integers(8, 601))
+        eps, dt = random.uniform(0.001, 0.1), random.uniform(1e-5, 2e-2)
+        if logarithmic:  # more of coarse grids, small steps and weak coefficients
+            eps, dt = 10 ** random.uniform(-3, -1), 10 ** random.uniform(-5, math.log10(2e-2))
+            n = int(np.exp(random.uniform(math.log(8), math.log(600))))
+        mode = int(random.integers(1, n // 2 + 1))
+        yield Toy(a, eps), n, dt, Seed(mode, 1e-6, "uv"[random.integers(2)])
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("logarithmic", [False, True])
+def test_random_scenes(logarithmic):
+    """At least 98 of 100 right, and nine of ten blow-ups within an interval at most a factor 1.5 wide."""
+    right, inside = [], []
+    for toy, n, dt, seed in scenes(100, 2024 + logarithmic, logarithmic):
+        found, run = diagnose(toy, n, dt, 30.0, seed), ftcs(toy, n, dt, 30.0, seed=seed)
+        blew_up = run.stop is Stop.BLEW_UP
+        right.append((found.blow_up is not None) == blew_up and consistent(found.kind, toy, run))
+        if blew_up and found.blow_up:
+            earliest, latest = found.blow_up
+            assert latest <= 1.5 * earliest
+            inside.append(earliest <= run.t_stop <= latest)
+    assert np.sum(right) >= 98
+    assert np.mean(inside) >= 0.9
+    assert len(inside) >= 30
+
+
+def consistent(kind, toy, run):
+    """Whether a kind can be that of a run at all."""
+    lived, dipped = run.stop is Stop.REACHED_END, run.t_first_negative is not None
+    return {
+        Kind.CONVERGES: lived and not dipped and toy.a >= 1,
+        Kind.HIDDEN: lived and toy.a < 1,
+        Kind.ILL_POSED: not lived and toy.a < 1,
+        Kind.TRANSIENT: dipped and toy.a >= 1,
+        Kind.SCHEME: not lived,
+    }[kind]
+
+
+def test_a_blow_up_of_the_scheme_is_cured_by_a_smaller_step_and_no_other():
+    """Scenes that blow up on grids quick to march, marched again with a small dt."""
+    seen = set()
+    for toy, n, dt, seed in scenes(250, 7, True):
+        found = diagnose(toy, n, dt, 30.0, seed) if n < 150 and dt > 5e-3 else None
+        if found and found.blow_up:
+            small = min(dt / 4, 0.1 * Grid(n).h ** 2, 0.5 / (1 + 4 * toy.eps * (abs(toy.a) + 1.2) / Grid(n).h ** 2))
+            scheme = found.kind is Kind.SCHEME
+            run = ftcs(toy, n, small, 30.0 if scheme else 60.0, seed=seed)
+            assert (run.stop is Stop.REACHED_END) == scheme, found
+            seen.add(found.kind)
+    assert {Kind.SCHEME, Kind.ILL_POSED} <= seen
+
+
+@pytest.mark.parametrize("case", HARD_CASES, ids=lambda case: case.name)
+def test_hard_cases_end_as_they_must(case):
+    run, found = case.march(), case.diagnose()
+    assert (run.stop is Stop.BLEW_UP) == case.blows_up
+    assert (found.blow_up is not None) == case.blows_up
+    assert found.kind is case.kind
+    if case.blows_up:
+        assert found.blow_up[0] <= run.t_stop <= found.blow_up[1]
+        assert found.seeded == (case.seed is not None)
+    assert found.reason.endswith(".")
+    assert case.why
+
+
+@pytest.mark.parametrize(
+    ("seed", "seeded"),
+    [(None, False), (Seed(1, 1e-6), False), (Seed(49, 1e-6), True), (Seed(48, 1e-6, "v"), True), (1e-6, True)],
+)
+def test_the_mode_of_the_seed_matters(seed, seeded):
+    """From a low mode hardly anything reaches the growing one, next to the sawtooth, before round-off does."""
+    found = diagnose(Toy(0.5), seed=seed)
+    stated = Seed(49, seed) if isinstance(seed, float) else seed
+    run = ftcs(Toy(0.5), seed=stated)
+    assert found.seeded is seeded
+    assert found.seed == stated
+    assert found.blow_up[0] <= run.t_stop <= found.blow_up[1]
+    assert found.kind is Kind.ILL_POSED
+    assert found.kind == "ill-posed"
+
+
+def test_each_kind_by_name():
+    kinds = [
+        diagnose(*scene).kind for scene in [(Toy(1.5),), (Toy(0.5), 30), (Toy(0.5),), (Toy(1.1),), (Toy(1.5, 0), 300)]
+    ]
+    assert kinds == ["converges", "hidden", "ill-posed", "transient", "scheme"]
+
+
+def test_growth_is_that_of_the_jacobian_with_the_step_taken():
+    lam = np.linalg.eigvals(jacobian(Toy(0.5), 100))
+    for dt in (1e-3, 1e-5):
+        expected = np.log(np.abs(1 + dt * lam)).max() / dt
+        assert diagnose(Toy(0.5), 100, dt).growth == pytest.approx(expected, rel=1e-6)
+
+
+def test_fewer_digits_blow_up_sooner():
+    times = [diagnose(Toy(0.5), dtype=d).t_blow_up for d in (np.float32, np.float64, np.longdouble)]
+    times += [diagnose(Toy(0.5), digits=d).t_blow_up for d in (30, 60, 400)]
+    assert np.all(np.diff(times) > 0)
+    assert times[4] - times[3] == pytest.approx(30 * math.log(10) / diagnose(Toy(0.5)).growth, rel=0.02)
+
+
+def test_a_run_without_time_is_foreseen_too():
+    assert diagnose(Toy(0.5), t_end=0).blow_up is None
+
+
+@pytest.mark.parametrize("n", [4, 5, 16, 31])
+@pytest.mark.parametrize("even_u", [1, -1])
+def test_half_grids_are_the_full_one(n, even_u):
+    """Symmetric parts, differences and solves against the dense Jacobian about a symmetric state."""
+    grid, toy = Grid(n), Toy(0.3, 0.2)
+    u = 0.3 - 1.1 * np.cos(grid.x) + 0.2 * np.cos(2 * grid.x)
+    v = 0.4 * np.sin(grid.x)
+    J = jacobian(toy, n, (u, v))
+    half = Half(n, grid.h, even_u)
+    f = half.part(np.random.default_rng(n).normal(size=(3, 2, n)))
+    full = half.full(f)
+    np.testing.assert_array_equal(half.part(full), f)
+    frozen = u[: n // 2 + 1], grid.derivative(v, 2)[: n // 2 + 1]
+    rates = (full.reshape(3, -1) @ J.T).reshape(3, 2, n)
+    np.testing.assert_allclose(half.full(half.rate(toy.eps, *frozen, f)), rates, atol=1e-11)
+    solved = half.factored(toy.eps, *frozen, 0.05)(f)
+    np.testing.assert_allclose(solved - 0.05 * half.rate(toy.eps, *frozen, solved), f, atol=1e-12)
+
+
+@pytest.mark.parametrize("m", [1, 2, 7, 1000])
+def test_a_stride_is_m_steps_and_keeps_their_stability(m):
+    """(1 + z/m)^m to second order, and |R| <= 1 where |1 + z/m| <= 1, for the step of leap's docstring."""
+    theta = (m - 1) / (2 * m)
+
+    def stride(z):
+        return (1 + (1 - theta) * z) / (1 - theta * z)
+
+    z = 1e-3 * np.exp(1j * np.linspace(0, 6, 13))
+    np.testing.assert_allclose(stride(z), (1 + z / m) ** m, atol=2e-10)
+    z = m * (np.random.default_rng(m).normal(size=(2000, 2)) @ [1.5, 1.5j] - 1)
+    assert 100 < np.sum(np.abs(1 + z / m) < 1) < 1900
+    np.testing.assert_array_equal(np.abs(stride(z)) < 1, np.abs(1 + z / m) < 1)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "error", "sentence"),
+    [
+        ((3,), TypeError, "toy must be a Toy, got 3"),
+        ((Toy(1), 3), ValueError, "n must be an integer >= 4, got 3"),
+        ((Toy(1), 100, 0), ValueError, "dt must be a finite number > 0, got 0"),
+        ((Toy(1), 100, 1e-3, 1.0, (3, 1e-6, "w")), ValueError, "seed field must be one of u, v, got 'w'"),
+        ((Toy(1), 100, 1e-3, 1.0, (51, 1e-6)), ValueError, "seed mode must be an integer <= 50, got 51"),
+        ((Toy(1), 100, 1e-3, 1.0, "x"), TypeError, "seed must be a Seed"),
+    ],
+)
+def test_bad_input_gets_one_sentence(arguments, error, sentence):
+    with pytest.raises(error) as caught:
+        diagnose(*arguments)
+    assert str(caught.value).startswith(sentence)
+
+
+def test_discrete_steady_state_is_where_the_smooth_solution_comes_to_rest():
+    """A converged run stands on it; what diagnose takes to be still is."""
+    run = ftcs(Toy(1.5), 60, 1e-3, 60.0)
+    np.testing.assert_allclose(run.final, discrete_steady(Toy(1.5), run.x, Grid(60).h), atol=1e-12)

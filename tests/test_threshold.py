@@ -1,0 +1,172 @@
+"""Guards the grid threshold: its spectrum against the dense Jacobian, that against finite differences and runs."""
+
+import math
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+import pytest
+
+from primer import Toy, ftcs, grid_threshold
+from primer.schemes.discrete import discrete_steady
+from primer.schemes.grid import Grid
+from primer.study import spectrum
+from primer.study.spectrum import Parity, depth, fastest, growth, jacobian
+from primer.study.threshold import unstable
+
+
+def dense_rates(toy, n):
+    """All growth rates but the neutral ones: the constant u and, for even n, the sawtooth of u."""
+    lam = np.linalg.eigvals(jacobian(toy, n))
+    neutral = np.argsort(np.abs(lam))[: 1 + (n % 2 == 0)]
+    assert np.abs(lam[neutral]).max() < 1e-6  # a double zero, to the square root of round-off
+    return np.delete(lam, neutral)
+
+
+@pytest.mark.parametrize("n", [4, 7, 12, 31])
+def test_jacobian_is_the_derivative_of_the_right_hand_side(n):
+    """Against central differences of rhs, exact but for round-off since rhs is quadratic; about no special state."""
+    grid, toy, step = Grid(n), Toy(0.3, 0.2), 1e-3
+    state = np.random.default_rng(n).normal(size=(2, n))
+
+    def rates(z):
+        return np.concatenate(toy.rhs(grid.x, z.reshape(2, n), grid.derivative))
+
+    columns = [(rates(state.ravel() + step * e) - rates(state.ravel() - step * e)) / (2 * step) for e in np.eye(2 * n)]
+    np.testing.assert_allclose(jacobian(toy, n, state), np.transpose(columns), atol=1e-9)
+    np.testing.assert_array_equal(jacobian(toy, n), jacobian(toy, n, discrete_steady(toy, grid.x, grid.h)))
+
+
+@pytest.mark.parametrize(("n", "expected"), [(64, 0.02465), (80, 0.613077), (100, 2.727232), (200, 18.17513)])
+def test_growth_is_that_of_the_reference(n, expected):
+    """physics.md, section 1."""
+    assert growth(Toy(0.5), n) == pytest.approx(expected, rel=2e-5)
+
+
+@pytest.mark.parametrize("seed", range(30))
+def test_fastest_mode_is_the_dense_one(seed):
+    random = np.random.default_rng(seed)
+    toy, n = Toy(random.uniform(-2, 1.2), 10 ** random.uniform(-3, 0)), int(random.integers(4, 90))
+    lam = dense_rates(toy, n)
+    mode = fastest(toy, n)
+    assert mode.lam.real == pytest.approx(lam.real.max(), abs=1e-8 * np.abs(lam).max())
+    z = np.concatenate([mode.u, mode.v])
+    J = jacobian(toy, n)
+    assert np.abs(J @ z - mode.lam * z).max() < 1e-9 * np.abs(J).max()
+    sign = 1 if mode.parity is Parity.DATA else -1
+    mirrored = -np.arange(n) % n
+    np.testing.assert_allclose(mode.u[mirrored], sign * mode.u, atol=1e-8)
+    np.testing.assert_allclose(mode.v[mirrored], -sign * mode.v, atol=1e-8)
+
+
+def test_structured_search_finds_what_the_dense_one_does(monkeypatch):
+    """On fine grids a few inverse iterations replace all eigenvalues: with and without a time step."""
+    random, cases = np.random.default_rng(1), []
+    for _ in range(25):
+        toy, n = Toy(random.uniform(-1, 2), 10 ** random.uniform(-3, -1)), int(random.integers(101, 190))
+        cases += [(toy, n, 0.0), (toy, n, 10 ** random.uniform(-5, -1.7))]
+    quick = [growth(*case) for case in cases]
+    monkeypatch.setattr(spectrum, "_DENSE", 10**6)
+    dense = [growth(*case) for case in cases]
+    assert sum(g > 0 for g in dense) > 15
+    for a, b in zip(quick, dense, strict=True):
+        assert (a > 0) == (b > 0)
+        if b > 0:
+            assert a == pytest.approx(b, rel=1e-6)
+
+
+def test_content_is_the_expansion_in_eigenvectors():
+    toy, n = Toy(0.5), 64
+    mode, z = fastest(toy, n), np.random.default_rng(0).normal(size=2 * n)
+    lam, vectors = np.linalg.eig(jacobian(toy, n))
+    k = np.argmin(np.abs(lam - mode.lam))
+    expected = np.linalg.solve(vectors, z)[k] * vectors[:, k]
+    np.testing.assert_allclose(mode.content(z[:n], z[n:]) * np.concatenate([mode.u, mode.v]), expected, atol=1e-10)
+
+
+def test_nothing_grows_where_the_frozen_sawtooth_does_not():
+    """The proof is in the module; here dense eigenvalues on 60 grids below the frozen estimate."""
+    random, seen = np.random.default_rng(2), 0
+    while seen < 60:
+        toy, n = Toy(random.uniform(-1, 1.1), 10 ** random.uniform(-3, -1)), int(random.integers(4, 60))
+        if depth(toy, n) <= 0:
+            assert dense_rates(toy, n).real.max() < 1e-8
+            seen += 1
+
+
+def test_threshold_of_the_paper():
+    found = grid_threshold(a=0.5, eps=0.01)
+    assert found.frozen == pytest.approx(44.4288293816, rel=1e-10)
+    assert found.n == 64
+    assert found.mode.lam.real == pytest.approx(0.02465, abs=1e-5)
+    assert found.mode.parity is Parity.OPPOSITE
+
+
+@pytest.mark.parametrize(
+    ("a", "eps"), [(0.5, 0.02), (0.0, 0.01), (-0.88, 0.0013), (-1.9, 0.009), (0.75, 0.03), (0.95, 0.06), (0.3, 1.5)]
+)
+def test_threshold_is_the_first_of_all_grids(a, eps):
+    toy, n = Toy(a, eps), 4
+    while dense_rates(toy, n).real.max() <= 1e-9:
+        n += 1
+    assert grid_threshold(a, eps).n == n
+
+
+def test_odd_and_even_grids_have_thresholds_of_their_own():
+    toy = Toy(-0.8798, 0.0013)
+    assert [unstable(toy, n) for n in (73, 74, 75, 76, 77)] == [False, False, True, False, True]
+
+
+@pytest.mark.parametrize(("a", "eps"), [(1.0, 0.01), (1.0, 1.0), (1.5, 0.1), (7, 3), (0.5, 0), (2, 0)])
+def test_no_threshold(a, eps):
+    found = grid_threshold(a, eps)
+    assert found.frozen == math.inf
+    assert found.n is None
+    assert found.mode is None
+
+
+def test_near_a_1_the_first_mode_is_near_a_quarter_of_the_grid():
+    found = grid_threshold(0.9, 1e-3)
+    spectrum_of_v = np.abs(np.fft.fft(found.mode.v))[: found.n // 2]
+    assert np.argmax(spectrum_of_v) == pytest.approx(found.n / 4, rel=0.1)
+    assert found.mode.lam.imag == pytest.approx(found.n / (2 * math.pi), rel=0.02)
+
+
+@dataclass(frozen=True)
+class FromSteady:
+    """The toy system from its discrete steady state, with a little of its fastest mode."""
+
+    toy: Toy
+    n: int
+    amplitude: float
+    fields: ClassVar[tuple[str, ...]] = ("u", "v")
+
+    def initial(self, x):
+        mode = fastest(self.toy, self.n)
+        u, v = discrete_steady(self.toy, x, Grid(self.n).h)
+        return u + self.amplitude * mode.u.real, v + self.amplitude * mode.v.real
+
+    def __getattr__(self, name):
+        return getattr(self.toy, name)
+
+
+@pytest.mark.parametrize(("n", "dt"), [(66, 1e-3), (80, 1e-3), (100, 1e-3), (100, 4e-3), (57, 1e-3)])
+def test_runs_grow_at_the_rate_of_the_eigenvalue(n, dt):
+    """Slope of ln(perturbation), to 1 %; what is measured is how much of the mode there is in u, v - steady."""
+    toy = Toy(0.5)
+    mode = fastest(toy, n, dt)
+    times = tuple(np.linspace(0.2, 2.2, 9))
+    run = ftcs(FromSteady(toy, n, 1e-7), n, dt, times[-1], snapshots=times)
+    steady = np.array(discrete_steady(toy, run.x, Grid(n).h))
+    size = [abs(mode.content(*(run.snapshots[t] - steady))) for t in times]
+    slope = np.polyfit(np.round(np.array(times) / dt) * dt, np.log(size), 1)[0]
+    assert slope == pytest.approx(growth(toy, n, dt), rel=0.01)
+
+
+def test_bad_input_gets_one_sentence():
+    with pytest.raises(TypeError, match="a must be a finite number, got 'x'"):
+        grid_threshold("x")
+    with pytest.raises(ValueError, match="eps must be a finite number >= 0, got -1"):
+        grid_threshold(0.5, -1)
+    with pytest.raises(ValueError, match="must be more than about"):
+        grid_threshold(0.5, 1e-14)
