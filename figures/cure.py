@@ -21,7 +21,7 @@ def compute():
     return {
         "cut": cut,
         "beta": recover(fourth_derivative, np.geomspace(5e-4, 0.3, 25), NOISE),
-        "answers": {f"K = {K}": march_back(noisy, cut_off(cut.t, K)) for K in (3, 9, 14)},
+        "answers": {f"K = {K}": march_back(noisy, cut_off(cut.t, K)) for K in (3, 9, 13)},
     }
 
 

@@ -75,7 +75,7 @@ def test_a_mirror_symmetric_order_blows_up_late():
 
 
 def test_mirror_symmetric_order_is_the_same_scheme():
-    """Where the smooth solution itself runs away, on few points and an odd number of them, the order does not matter."""
+    """Where the smooth solution itself runs away, on few points, an odd number, the order does not matter."""
     run = ftcs(Toy(-1.0, 0.1), 13, 1e-3, 20.0)
     assert mirror_symmetric(Toy(-1.0, 0.1), 13, 1e-3, 20.0) == pytest.approx(run.t_stop, abs=2e-3)
     assert mirror_symmetric(Toy(1.5), 30, 1e-3, 5.0, blow_up_at=1.01) == math.inf

@@ -13,11 +13,12 @@ def draw_map(ax, result, thresholds=()):
     i, j = np.nonzero(result.from_round_off)
     ax.plot(result.n[j], result.a[i], ".", color="black", ms=1.5, label="only round-off makes it")
     smooth = np.isfinite(result.t_blow_up) & ~result.from_round_off
-    i, j = np.nonzero(smooth)
-    ax.plot(result.n[j], result.a[i], "x", color=V, ms=4, label="the smooth solution runs away")
+    if smooth.any():
+        i, j = np.nonzero(smooth)
+        ax.plot(result.n[j], result.a[i], "x", color=V, ms=4, label="the smooth solution runs away")
     a = [found.a for found in thresholds]
     ax.plot([found.n for found in thresholds], a, color=V, lw=2, label="first unstable grid (Jacobian)")
-    ax.plot([found.frozen for found in thresholds], a, color=V, ls="--", lw=1.4, label="frozen: π/√(ε(1−a))")
+    ax.plot([found.frozen for found in thresholds], a, color=V, ls="--", lw=1.4, label="frozen coefficients")
     ax.axhline(1, color=STEADY, ls=":", lw=1.2)
     ax.set(xlabel="N", ylabel="a", xlim=(result.n.min(), result.n.max()), ylim=(result.a.min(), result.a.max()))
     return image
@@ -27,9 +28,9 @@ def draw_mode(ax, mode):
     """The real part of a mode's u and v; where it lives is where the steady u is least."""
     ax.plot(mode.x, mode.v.real, color=V, ls="--", lw=1, label="v")
     ax.plot(mode.x, mode.u.real, color=U, lw=1, label="u")
-    ax.set(xlabel="x", xlim=(-np.pi, np.pi))
+    ax.set(xlabel="x", xlim=(-np.pi, np.pi), ylim=(-1.1, 1.35))
     ax.set_xticks([-np.pi, 0, np.pi], [r"$-\pi$", "0", r"$\pi$"])
-    ax.legend(loc="upper right")
+    ax.legend(loc="upper right", ncols=2)
 
 
 def draw_seeds(ax, ladder):
@@ -62,6 +63,6 @@ def draw_answers(ax, x, profile, answers):
     ax.plot(x, profile, color=STEADY, ls=":", lw=2, label="true")
     for (label, samples), ls in zip(answers.items(), ("-", "--", "-."), strict=False):
         ax.plot(x, samples, ls=ls, lw=1.3, label=label)
-    ax.set(xlabel="x", xlim=(-np.pi, np.pi), ylim=(-2.6, 2.6))
+    ax.set(xlabel="x", xlim=(-np.pi, np.pi), ylim=(-2.6, 3.8))
     ax.set_xticks([-np.pi, 0, np.pi], [r"$-\pi$", "0", r"$\pi$"])
-    ax.legend(loc="upper right")
+    ax.legend(loc="upper center", ncols=2)
