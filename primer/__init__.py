@@ -39,7 +39,7 @@ _HOME = {
     "Stop": "schemes.run",
     "Toy": "problems.toy",
     "Verdict": "analysis.verdict",
-    "blow_up_map": "study.blow_up_map",
+    "blow_up_map": "study.maps",
     "cost_against_n": "study.cost",
     "critical_state": "granular.criteria",
     "diagnose": "study.diagnosis",

@@ -64,7 +64,7 @@ def test_dask_gives_the_same_map(reference):
 
 
 def test_an_interrupted_sweep_goes_on_where_it_was(reference, tmp_path, monkeypatch):
-    sweep = sys.modules["primer.study.blow_up_map"]
+    sweep = sys.modules["primer.study.maps"]
     march, marched = sweep._column, []
 
     def interrupted(a, n, *rest):

@@ -1,6 +1,19 @@
 """Many runs, one question: the only place that loops over runs."""
 
 from primer.study.cost import cost_against_n, work_precision
+from primer.study.diagnosis import diagnose
+from primer.study.maps import blow_up_map
 from primer.study.refinement import heat_onset, refine
+from primer.study.stability import stable_dt
+from primer.study.threshold import grid_threshold
 
-__all__ = ["cost_against_n", "heat_onset", "refine", "work_precision"]
+__all__ = [
+    "blow_up_map",
+    "cost_against_n",
+    "diagnose",
+    "grid_threshold",
+    "heat_onset",
+    "refine",
+    "stable_dt",
+    "work_precision",
+]
