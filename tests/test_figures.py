@@ -22,12 +22,15 @@ def run(*arguments, **options):
     return subprocess.run(command, capture_output=True, text=True, **options)
 
 
+SLOW = {"grid_map", "round_off"}  # many runs each: made once here, and computed again by --check
+
+
 @pytest.fixture(scope="module")
 def made(tmp_path_factory):
-    """All figures in all formats, made twice."""
+    """All figures in all formats; all but the slow ones twice."""
     folders = [tmp_path_factory.mktemp(name) for name in ("first", "second")]
-    for folder in folders:
-        result = run("--out", folder, "--formats", "svg,png,pdf")
+    for folder, names in zip(folders, ([], sorted(set(regenerate.NAMES) - SLOW)), strict=True):
+        result = run("--out", folder, "--formats", "svg,png,pdf", *names)
         assert result.returncode == 0, result.stderr
         assert "Warning" not in result.stderr
     return folders
@@ -43,8 +46,8 @@ def test_every_script_makes_every_format(made):
 
 def test_pictures_are_the_same_bytes_each_time(made):
     first, second = made
-    for path in first.iterdir():
-        assert path.read_bytes() == (second / path.name).read_bytes(), path.name
+    for path in second.iterdir():
+        assert path.read_bytes() == (first / path.name).read_bytes(), path.name
 
 
 def test_committed_numbers_are_what_is_computed():
