@@ -90,30 +90,32 @@ def diagnose(toy, n=100, dt=1e-3, t_end=100.0, seed=None, dtype=np.float64, digi
         raise ValueError(f"seed field must be one of {', '.join(toy.fields)}, got {shown(seed.field)}")
     epsilon = max(asked.numbers.epsilon, 1e-300)
     found = forecast(toy, n, dt, t_end, seed, epsilon)
-    dips = toy.eps > 0 and found.t_first_negative is not None
-    blows_up = found.t_blow_up <= t_end
-    if blows_up and _only_the_scheme(toy, n, dt, max(t_end, 1.5 * found.t_blow_up), seed, epsilon):
+    blows_up, t_dip = found.t_blow_up <= t_end, found.t_first_negative
+    if blows_up:
+        gentle = _with_a_small_step(toy, n, dt, max(t_end, 1.5 * found.t_blow_up), seed, epsilon) or found
+        t_dip = gentle.t_first_negative  # which the scheme may not have let it reach
+    if blows_up and gentle.t_blow_up > max(t_end, 1.5 * found.t_blow_up):
         kind = Kind.SCHEME
     elif toy.eps > 0 and toy.a < 1:
         kind = Kind.ILL_POSED if blows_up else Kind.HIDDEN
-    elif dips:
+    elif toy.eps > 0 and t_dip is not None:
         kind = Kind.TRANSIENT
     else:
         kind = Kind.ILL_POSED if blows_up else Kind.CONVERGES
     interval = (_EARLIEST * found.t_blow_up, _LATEST * found.t_blow_up) if blows_up else None
     rate = growth(toy, n, dt)
-    reason = _reason(kind, toy, n, dt, t_end, found, rate)
+    reason = _reason(kind, toy, n, dt, t_end, found, t_dip, rate)
     return Diagnosis(kind, interval, rate, reason, seed, blows_up and found.seeded, found.t_blow_up)
 
 
-def _only_the_scheme(toy, n, dt, t_end, seed, epsilon):
-    """Whether with a small enough step the run would live."""
+def _with_a_small_step(toy, n, dt, t_end, seed, epsilon):
+    """The forecast with a step that the scheme surely allows, or None if dt is such a one."""
     # At a - 1.2 < u < a + 1.2 the limit is at least that of u = 0, or that of the stiffest mode.
     small = _SMALL * min((math.pi / n) ** 2, stable_dt(toy, n, max(toy.a + 1.2, 0.0)))
-    return dt > small and forecast(toy, n, small, t_end, seed, epsilon, locks=False).t_blow_up > t_end
+    return forecast(toy, n, small, t_end, seed, epsilon, locks=False) if dt > small else None
 
 
-def _reason(kind, toy, n, dt, t_end, found, rate):
+def _reason(kind, toy, n, dt, t_end, found, t_dip, rate):
     source = "the seed" if found.seeded else "the smooth solution itself" if found.smooth else "round-off"
     when = f"what grows from {source} is as large as u near t = {found.t_blow_up:.3g}"
     if kind is Kind.SCHEME:
@@ -133,7 +135,7 @@ def _reason(kind, toy, n, dt, t_end, found, rate):
             f"e^({rate:.3g} t), so slowly that each step of theirs is lost in the last bit."
         )
     if kind is Kind.TRANSIENT:
-        first = f"The steady state is well posed, but u dips below zero at t = {found.t_first_negative:.3g}"
+        first = f"The steady state is well posed, but u dips below zero at t = {t_dip:.3g}"
         if found.t_blow_up <= t_end:
             return f"{first}, n = {n} points see that it is ill posed there, and {when}."
         return f"{first}; it recovers before anything on n = {n} points has grown enough."
