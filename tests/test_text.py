@@ -280,14 +280,14 @@ HOSTILE = {
 
 @pytest.mark.parametrize("name", HOSTILE)
 @pytest.mark.parametrize("ask", [verdict, linearise])
-def test_hostile_text_ends_within_a_second(ask, name):
-    start = time.perf_counter()
+def test_hostile_text_ends_at_once(ask, name):
+    start = time.process_time()  # of this process alone, whatever else the machine does
     if ask is linearise and name in ("long but allowed", "exponentials"):
         linearise(HOSTILE[name])  # no number is computed: these are matrices like any other
     else:
         with pytest.raises(PDEError):
             ask(HOSTILE[name])
-    assert time.perf_counter() - start < 1
+    assert time.process_time() - start < 5  # hundredths are usual; an explosion takes for ever
 
 
 @pytest.mark.parametrize("text", [None, 3, b"u_t = u", ["u_t = u"]])

@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 from primer import Toy
-from primer.study import measured
+from primer.study import cost, measured
 from primer.study.contestants import Method, contestants
-from primer.study.cost import Point, WorkPrecision, cost_against_n, pareto, work_precision
+from primer.study.cost import Point, WorkPrecision, pareto, work_precision
 
 ROOT = Path(__file__).parents[1]
 STORE = ROOT / "figures" / "work_precision.measured.json"
@@ -47,12 +47,20 @@ def test_the_front_is_what_nothing_beats():
     assert study.quickest("m", 0.1) is None
 
 
-def test_cost_is_scaled_to_the_whole_march():
-    methods = [m for m in contestants(with_py_pde=False) if m.name in ("FTCS", "central 4 + RK4", "reference")]
-    cost = cost_against_n(t_end=2.0, ns=(50, 200), methods=methods, seconds=0.01)
-    assert [(p.method, p.n) for p in cost] == [(m.name, n) for m in methods[:2] for n in (50, 200)]
-    assert cost[1].seconds > 4 * cost[0].seconds  # 4 times the points, at least as many steps
-    assert all(math.isnan(p.error) for p in cost)
+def test_cost_is_scaled_to_the_whole_march(monkeypatch):
+    """A march that takes a thousandth of a second of a clock of ours per point and unit of time."""
+    now = [0.0]
+    monkeypatch.setattr(cost.time, "perf_counter", lambda: now[0])
+
+    def march(toy, n, t_end):
+        now[0] += 1e-3 * n * t_end
+        return np.zeros(n), np.zeros((2, n)), 0.1
+
+    methods = [Method("by points", march, (8,)), Method("by tolerance", march, (1e-3,), by_points=False)]
+    points = cost.cost_against_n(t_end=2.0, ns=(50, 200), methods=methods, seconds=0.01)
+    assert [(p.method, p.n) for p in points] == [("by points", 50), ("by points", 200)]
+    assert [p.seconds for p in points] == pytest.approx([0.1, 0.4])
+    assert all(math.isnan(p.error) for p in points)
 
 
 def test_a_blow_up_is_an_infinite_error():
