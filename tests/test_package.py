@@ -97,6 +97,11 @@ def test_readme_layout_names_every_room():
             assert re.search(rf"\b{path.name}(/|\s)", picture), path.name
 
 
+def test_readme_lists_every_figure_once():
+    scripts = {path.stem for path in (ROOT / "figures").glob("*.py")} - {"regenerate", "sidecar"}
+    assert sorted(re.findall(r"^\| \[(\w+)\]\(figures/\1\.svg\)", readme(), flags=re.M)) == sorted(scripts)
+
+
 def test_versions_agree():
     assert re.fullmatch(r"\d+\.\d+\.\d+", primer.__version__)
     assert f"## {primer.__version__}" in (ROOT / "CHANGELOG.md").read_text(encoding="utf-8")
