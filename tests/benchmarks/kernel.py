@@ -118,6 +118,7 @@ def py_pde():
 
 
 def seconds(function, repeats=5):
+    """Median wall time; one call before them does not count."""
     function()
     times = []
     for _ in range(repeats):

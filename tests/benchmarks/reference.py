@@ -10,6 +10,7 @@ import time
 from functools import partial
 
 import numpy as np
+from kernel import seconds
 
 from primer import Toy, ftcs, reference
 from primer.compiled import compiled
@@ -22,17 +23,6 @@ FINE = 3100  # grid points that bring FTCS to 1e-6; checked below
 
 def error(x, fields, truth):
     return np.abs(np.array(fields) - [f[0] for f in truth.at(x)]).max()
-
-
-def seconds(function, repeats):
-    """Median wall time; one call before them does not count."""
-    function()
-    times = []
-    for _ in range(repeats):
-        start = time.perf_counter()
-        function()
-        times.append(time.perf_counter() - start)
-    return float(np.median(times))
 
 
 def quickest_solve_ivp(truth):
