@@ -23,6 +23,7 @@ FLOORS = [
     "analysis",
     "granular",
     "study",
+    "scenes",
     "view",
     "__main__",
 ]
