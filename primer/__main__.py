@@ -7,6 +7,7 @@ import sys
 
 from primer import __version__
 from primer.granular.command import add_command as add_granular
+from primer.lab import add_command as add_lab
 
 
 def main(arguments=None):
@@ -28,6 +29,7 @@ def _parser():
     commands = parser.add_subparsers(metavar="COMMAND", required=True)
     _add_verdict(commands)
     add_granular(commands)
+    add_lab(commands)
     return parser
 
 

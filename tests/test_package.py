@@ -25,6 +25,7 @@ FLOORS = [
     "study",
     "scenes",
     "view",
+    "lab",
     "__main__",
 ]
 

@@ -154,7 +154,7 @@ class Line:
             self.default,
             description=self.label,
             continuous_update=False,
-            layout=widgets.Layout(width="100%"),
+            layout=widgets.Layout(width="auto", flex="1 1 auto"),
             style={"description_width": _LABEL},
         )
         return _watched(box, changed)

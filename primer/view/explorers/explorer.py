@@ -37,7 +37,7 @@ class Explorer:
         self._picture = Picture(self.layout, self.draw)
         self._asked = self._answer = None
         self._rows = {control.name: control.build(self._update) for control in self._all()}
-        self._said, self._image, self._copy = _outputs(type(self).__name__)
+        self._said, self._image, self._copy = _outputs()
         self._copy.observe(self._restore, "value")
         self.widget = self._arranged()
         self.set(**values)
@@ -114,8 +114,9 @@ class Explorer:
                 self._asked = None
                 self._answer = type(self).answer(**asked)
                 self._asked = asked
-            self._image.value = self._picture.png(self._answer, looks)
+            png = self._picture.png(self._answer, looks)
             self._say(self._answer.verdict)
+            self._image.value = png  # last: who sees the picture can read what it says
         except Exception as error:
             self._say(str(error) or type(error).__name__, wrong=True)
 
@@ -173,15 +174,15 @@ class Explorer:
         return tuple({n: v for n, v in values.items() if (n in looks) is look} for look in (False, True))
 
 
-def _outputs(name):
+def _outputs():
     """(verdict, picture, state) as widgets."""
     said = widgets.HTML(layout=widgets.Layout(margin="4px 0"))
+    # No tooltip here: JupyterLab cannot show an Image that has one.
     image = widgets.Image(format="png", layout=widgets.Layout(max_width="100%", object_fit="contain"))
-    image.tooltip = f"Picture of this {name}: what it shows is said above it"
     copy = widgets.Text(
         description="state",
         tooltip="Copy this to come back here; paste one and press Enter to go there",
         continuous_update=False,
-        layout=widgets.Layout(width="100%"),
+        layout=widgets.Layout(width="auto"),
     )
     return said, image, copy
