@@ -69,7 +69,7 @@ class HeatOnset:
     predicted: np.ndarray  # (k,) the same for the stated sawtooth, in closed form; infinite without one
 
 
-def heat_onset(ns, courant=0.02, tolerance=1e-2, sawtooth=0.0):
+def heat_onset(ns, courant=0.02, tolerance=1e-2, sawtooth=0.0, t_end=None, snapshots=()):
     """March u_t = -u_xx from sin x on grids ``ns`` with dt = courant h^2 and see when the grid takes over.
 
     In exact arithmetic each step multiplies sin x by 1 + dt (4/h^2) sin^2(h/2). Whatever lives at the grid's own
@@ -85,6 +85,8 @@ def heat_onset(ns, courant=0.02, tolerance=1e-2, sawtooth=0.0):
     courant          dt/h^2
     tolerance        the departure that counts as visible, where |u| is about 1
     sawtooth         amplitude of a stated seed (-1)^j; with 0 round-off is the only seed
+    t_end            where the runs end, if they have not blown up; left out, when each grid has surely taken over
+    snapshots        times in [0, t_end] at which the fields are kept
     """
     ns, courant = _grids(ns), real("courant", courant, above=0)
     tolerance = real("tolerance", tolerance, least=1e-15, most=1)
@@ -99,7 +101,8 @@ def heat_onset(ns, courant=0.02, tolerance=1e-2, sawtooth=0.0):
         grid = Grid(n)
         dt = courant * grid.h**2
         seed = Seed(n // 2, sawtooth, phase=0.0) if sawtooth else None
-        run = ftcs(BackwardHeat(), n, dt, steps * dt, record_every=1, seed=seed, blow_up_at=100)
+        end = steps * dt if t_end is None else t_end
+        run = ftcs(BackwardHeat(), n, dt, end, record_every=1, snapshots=snapshots, seed=seed, blow_up_at=100)
         factor = amplification(BackwardHeat().symbol(1.0, grid.multiplier), dt)[0].real
         departure = np.abs(run.dist - factor ** np.arange(run.t.size))
         late = np.flatnonzero(departure > tolerance)

@@ -5,10 +5,13 @@ import numpy as np
 from primer.view.style import ILL, STEADY, U, V
 
 
-def draw_dist(ax, run, floor=None, label=None, color="black", **line):
-    """Dist(t) of eq. (toy-err) on a log axis; the dashed line is the first u = 0, the dotted one the scheme's floor."""
+def draw_dist(ax, run, floor=None, label=None, color="black", mark=True, **line):
+    """Dist(t) of eq. (toy-err) on a log axis; the dashed line is the first u = 0, the dotted one the scheme's floor.
+
+    With several runs in one picture ``mark`` the first u = 0 of one of them: they are next to each other.
+    """
     ax.semilogy(run.t, run.dist, color=color, label=label, **line)
-    if run.t_first_negative is not None:
+    if mark and run.t_first_negative is not None:
         ax.axvline(run.t_first_negative, color=STEADY, ls="--", lw=1)
         ax.annotate(
             f"first u = 0: t = {run.t_first_negative:.3g}",
@@ -32,6 +35,29 @@ def draw_dist(ax, run, floor=None, label=None, color="black", **line):
             color=STEADY,
         )
     ax.set(xlabel="t", ylabel="Dist")
+
+
+def draw_u(ax, runs, fields, colors, styles=("-", "--", "-.")):
+    """u of several grids, ``fields`` of shape (n,) each, over the steady state; where that is negative it is shaded."""
+    x = np.linspace(-np.pi, np.pi, 257)
+    steady, _ = runs[0].problem.steady(x)
+    shade_negative(ax, x, steady)
+    ax.plot(x, steady, color=STEADY, ls=":", lw=1.4, label=r"$a - \cos x$")
+    for run, u, color, ls in zip(runs, fields, colors, styles, strict=True):
+        ax.plot(np.append(run.x, np.pi), np.append(u, u[0]), color=color, ls=ls, label=f"N = {run.n}")
+    ax.set(xlabel="x", ylabel="u", xlim=(-np.pi, np.pi))
+    ax.set_xticks([-np.pi, 0, np.pi], [r"$-\pi$", "0", r"$\pi$"])
+    ax.legend(loc="upper center", ncols=2, frameon=True, framealpha=0.9, edgecolor="none")  # blow-ups fill the picture
+
+
+def draw_against(ax, x, u, exact, label="u"):
+    """u on the grid x of the circle, dot by dot, over ``exact(x)``."""
+    line = np.linspace(-np.pi, np.pi, 257)
+    ax.plot(line, exact(line), color=STEADY, ls=":", lw=1.4, label="exact")
+    ax.plot(np.append(x, np.pi), np.append(u, u[0]), "o-", color=U, ms=3, lw=1, label=label)
+    ax.set(xlabel="x", ylabel="u", xlim=(-np.pi, np.pi))
+    ax.set_xticks([-np.pi, 0, np.pi], [r"$-\pi$", "0", r"$\pi$"])
+    ax.legend(loc="upper left", ncols=2, frameon=True, framealpha=0.9, edgecolor="none")
 
 
 def draw_fields(ax, run, state, time):
