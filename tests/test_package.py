@@ -16,6 +16,7 @@ ROOT = Path(__file__).parents[1]
 MODULES = sorted((ROOT / "primer").rglob("*.py"))
 FLOORS = [
     "checks",
+    "claims",
     "arithmetic",
     "compiled",
     "problems",
