@@ -319,6 +319,7 @@ def test_a_well_posed_steady_state_may_be_reached_through_u_below_zero():
         assert Toy(a).steady(run.x)[0].min() > 0
 
 
+@pytest.mark.slow
 def test_every_grid_from_64_points_on_sees_it_and_no_coarser_one_does():
     """About the discrete steady state of a = 0.5."""
     assert [n for n in range(4, 201) if growth(Toy(0.5), n) > 1e-9] == list(range(64, 201))
