@@ -24,6 +24,7 @@ FLOORS = [
     "analysis",
     "granular",
     "study",
+    "scenes",
     "view",
     "__main__",
 ]

@@ -1,0 +1,63 @@
+"""The explorer of the base state: growth curve, Dist(t) and fields of the toy system, linked."""
+
+from typing import ClassVar
+
+import numpy as np
+
+from primer.scenes.base_state import T_END, base_state
+from primer.view.explorers.controls import Number
+from primer.view.explorers.explorer import Explorer
+from primer.view.growth import draw_growth, shade_growing
+from primer.view.runs import draw_dist, draw_fields
+from primer.view.style import STEADY, V
+
+
+def draw_base_state(axes, answer, t):
+    """(growth, Dist, fields) of a ``BaseStateAnswer`` on three axes, the fields at time t or where the run stopped."""
+    growth, dist, fields = axes
+    run = answer.run
+    draw_growth(growth, answer.xi, answer.rate, label="the equations", color="black")
+    draw_growth(growth, answer.grid_xi, answer.grid_rate, label=f"on N = {run.n}", cut_off=run.n / 2, ls="--", color=V)
+    shade_growing(growth, 6)
+    growth.set(title="growth frozen at x = 0, (toy-mat)", xlim=(0, 128), ylim=(-2, 6))
+    growth.legend(loc="upper left")
+    draw_dist(dist, run)
+    for time, name, ls in ((answer.predicted, "foretold", ":"), (answer.measured, "blow-up", "-")):
+        if time <= T_END:
+            dist.axvline(time, color=V, ls=ls, lw=1.4, label=f"{name}: t = {time:.3g}")
+    if dist.get_legend_handles_labels()[0]:
+        dist.legend(loc="upper right")
+    dist.set(title="distance to the steady state", xlim=(0, T_END), ylim=(1e-5, 1e3))
+    now = min(t, run.t_stop)
+    dist.axvline(now, color=STEADY, lw=0.8)
+    draw_fields(fields, run, _fields(run, now), now)
+    top = 4.0 if -1 <= run.problem.a <= 2 else run.problem.a + 3
+    fields.set(ylim=(top - 7, top), title=f"fields at t = {now:.4g}")
+
+
+def _fields(run, t):
+    """The snapshot nearest to t, or the last state where the run stopped."""
+    times = np.array(list(run.snapshots))
+    if t == run.t_stop or not times.size:
+        return run.final
+    return run.snapshots[times[np.argmin(np.abs(times - t))]]
+
+
+class BaseStateExplorer(Explorer):
+    """Move the base state a: the growth curve crosses zero, and a fine grid blows up where a coarse one looks fine."""
+
+    answer = staticmethod(base_state)
+    draw = staticmethod(draw_base_state)
+    layout: ClassVar = {"columns": 3, "width": 11.0, "height": 3.5}
+    controls = (
+        Number("a", "base state a", 1.5, -1.0, 2.0, 0.05),
+        Number("eps", "coefficient ε", 0.01, 0.001, 0.1, 0.1, log=True),
+        Number("n", "grid points N", 100, 16, 256, 2),
+    )
+    looks = (Number("t", "time t", T_END, 0.0, T_END, 0.5, play=250),)
+    presets: ClassVar = {
+        "well posed": "a=1.5",
+        "marginal": "a=1.1",
+        "ill posed": "a=0.5",
+        "ill posed, and the coarse grid looks fine": "a=0.5,n=30",
+    }

@@ -1,0 +1,187 @@
+"""The explorer: controls, a verdict in words and a picture, kept in step."""
+
+from collections.abc import Callable
+from html import escape
+from typing import ClassVar
+
+import ipywidgets as widgets
+
+from primer.checks import shown
+from primer.view.explorers.controls import defaults, read_state, write_state
+from primer.view.explorers.picture import Picture
+from primer.view.explorers.snapshot import Snapshot, still
+
+
+class Explorer:
+    """What all explorers share; a subclass states its scene, its drawing and its controls.
+
+    Attributes of a subclass
+    ------------------------
+    answer      function of the values of ``controls``: a frozen result with a ``verdict`` in words
+    draw        ``draw(axes, answer, **looks)`` on the axes of the figure
+    layout      the arguments of ``primer.view.style.new_figure``
+    controls    tuple of ``Number``, ``Choice`` and ``Line``: what the answer depends on
+    looks       tuple of the same: how the answer is looked at, such as the time; they cost no new answer
+    presets     name -> state: settings worth seeing
+    """
+
+    answer: ClassVar[Callable]
+    draw: ClassVar[Callable]
+    layout: ClassVar[dict]
+    controls: ClassVar[tuple]
+    looks: ClassVar[tuple] = ()
+    presets: ClassVar[dict]
+
+    def __init__(self, **values):
+        self.verdict = ""
+        self._picture = Picture(self.layout, self.draw)
+        self._asked = self._answer = None
+        self._rows = {control.name: control.build(self._update) for control in self._all()}
+        self._said, self._image, self._copy = _outputs(type(self).__name__)
+        self._copy.observe(self._restore, "value")
+        self.widget = self._arranged()
+        self.set(**values)
+
+    @classmethod
+    def from_state(cls, text):
+        """The explorer in a state such as ``"a=0.6,n=64"``; what is left out keeps its default.
+
+        Raises
+        ------
+        ValueError    if the text is not NAME=VALUE, parted by commas, of this explorer's names
+        """
+        return cls(**read_state(cls._all(), text))
+
+    @classmethod
+    def snapshot(cls, state="", **values):
+        """A still picture of a state, with its verdict: for pages that are printed, or read where nothing runs.
+
+        Raises
+        ------
+        TypeError, ValueError    for a state or a value of which the explorer would say so
+        """
+        values = read_state(cls._all(), state) | cls._known(values)
+        asked, looks = cls._parted(values)
+        answer = cls.answer(**asked)
+        return Snapshot(write_state(cls._all(), values), answer.verdict, still(cls.layout, cls.draw, answer, looks))
+
+    @property
+    def values(self):
+        """Name -> what each control says."""
+        return {name: row.get() for name, row in self._rows.items()}
+
+    @property
+    def state(self):
+        """The state as a text to copy, which ``from_state`` gives back."""
+        return write_state(self._all(), self.values)
+
+    @property
+    def png(self):
+        """The picture, as bytes."""
+        return bytes(self._image.value)
+
+    def set(self, **values):
+        """Move some controls at once; the answer is found once.
+
+        Raises
+        ------
+        TypeError    if a name is not that of a control
+        """
+        for name, value in self._known(values).items():
+            self._rows[name].show(value)
+        self._update()
+
+    def reset(self):
+        """Back to where it began."""
+        self.set(**defaults(self._all()))
+
+    def preset(self, name):
+        """One of the settings worth seeing.
+
+        Raises
+        ------
+        ValueError    if there is none of this name
+        """
+        if name not in self.presets:
+            raise ValueError(f"name must be one of {', '.join(map(repr, self.presets))}, got {shown(name)}")
+        self.set(**read_state(self._all(), self.presets[name]))
+
+    def _update(self):
+        """Answer, draw and say; whatever goes wrong is said too, since nobody sees an exception in a callback."""
+        asked, looks = self._parted(self.values)
+        try:
+            if asked != self._asked:
+                self._asked = None
+                self._answer = type(self).answer(**asked)
+                self._asked = asked
+            self._image.value = self._picture.png(self._answer, looks)
+            self._say(self._answer.verdict)
+        except Exception as error:
+            self._say(str(error) or type(error).__name__, wrong=True)
+
+    def _say(self, text, wrong=False):
+        self.verdict = text
+        role = "alert" if wrong else "status"
+        self._said.value = f'<div role="{role}" aria-live="polite" class="primer-verdict">{escape(text)}</div>'
+        self._image.layout.visibility = "hidden" if wrong else "visible"  # an old picture would mislead
+        with self._copy.hold_trait_notifications():
+            self._copy.value = self.state
+
+    def _restore(self, change):
+        """A state was typed or pasted."""
+        if change["new"] != self.state:
+            try:
+                self.set(**read_state(self._all(), change["new"]))
+            except ValueError as error:
+                self._say(str(error), wrong=True)
+
+    def _arranged(self):
+        buttons = []
+        for name in self.presets:
+            button = widgets.Button(description=name, layout=widgets.Layout(width="auto"))
+            button.on_click(lambda _, name=name: self.preset(name))
+            buttons.append(button)
+        reset = widgets.Button(description="reset", icon="undo", layout=widgets.Layout(width="auto"))
+        reset.on_click(lambda _: self.reset())
+        choices = widgets.HBox([*buttons, reset], layout=widgets.Layout(flex_flow="row wrap"))
+        rows = [row.widget for row in self._rows.values()]
+        box = widgets.VBox([choices, *rows, self._said, self._image, self._copy])
+        box.add_class("primer-explorer")
+        return box
+
+    def _repr_mimebundle_(self, **options):
+        bundle = self.widget._repr_mimebundle_(**options)
+        data = bundle[0] if isinstance(bundle, tuple) else bundle
+        return {**data, "text/plain": f"{type(self).__name__}.from_state({self.state!r})\n{self.verdict}"}
+
+    @classmethod
+    def _all(cls):
+        return (*cls.controls, *cls.looks)
+
+    @classmethod
+    def _known(cls, values):
+        names = [control.name for control in cls._all()]
+        for name in values:
+            if name not in names:
+                raise TypeError(f"the controls of {cls.__name__} are {', '.join(names)}, got {shown(name)}")
+        return values
+
+    @classmethod
+    def _parted(cls, values):
+        """(what the answer depends on, how it is looked at)."""
+        looks = [control.name for control in cls.looks]
+        return tuple({n: v for n, v in values.items() if (n in looks) is look} for look in (False, True))
+
+
+def _outputs(name):
+    """(verdict, picture, state) as widgets."""
+    said = widgets.HTML(layout=widgets.Layout(margin="4px 0"))
+    image = widgets.Image(format="png", layout=widgets.Layout(max_width="100%", object_fit="contain"))
+    image.tooltip = f"Picture of this {name}: what it shows is said above it"
+    copy = widgets.Text(
+        description="state",
+        tooltip="Copy this to come back here; paste one and press Enter to go there",
+        continuous_update=False,
+        layout=widgets.Layout(width="100%"),
+    )
+    return said, image, copy

@@ -1,0 +1,160 @@
+"""Guards the explorers: every control's corners answer, errors are said in words, states can be copied and restored."""
+
+import gc
+import io
+import itertools
+
+import numpy as np
+import pytest
+from matplotlib.image import imread
+
+from primer.view import explorers
+from primer.view.explorers.controls import Choice, Line, Number
+from primer.view.explorers.picture import Picture
+
+EXPLORERS = [getattr(explorers, name) for name in explorers.__all__]
+every = pytest.mark.parametrize("explorer", EXPLORERS, ids=lambda explorer: explorer.__name__)
+
+
+def pixels(png):
+    return imread(io.BytesIO(png))
+
+
+def ends(control):
+    """The values a reader can reach that are likeliest to break something."""
+    if isinstance(control, Number):
+        return (control.low, control.high)
+    return control.options if isinstance(control, Choice) else (control.default,)
+
+
+@every
+def test_begins_with_a_picture_and_a_verdict(explorer):
+    shown = explorer()
+    assert shown.verdict
+    assert pixels(shown.png).std() > 0.01
+    assert shown.widget.children
+
+
+@every
+def test_every_corner_of_the_controls_gives_a_picture_and_a_verdict(explorer):
+    shown, controls = explorer(), (*explorer.controls, *explorer.looks)
+    for corner in itertools.product(*map(ends, controls)):
+        state = dict(zip((control.name for control in controls), corner, strict=True))
+        shown.set(**state)
+        assert shown._image.layout.visibility == "visible", (state, shown.verdict)
+        assert shown.verdict
+        assert "nan" not in shown.verdict.split()
+
+
+@every
+def test_a_state_comes_back(explorer):
+    for state in explorer.presets.values():
+        first = explorer.from_state(state)
+        second = explorer.from_state(first.state)
+        assert (second.state, second.verdict) == (first.state, first.verdict)
+        assert np.array_equal(pixels(second.png), pixels(first.png))
+
+
+@every
+def test_reset_and_presets_lead_back_to_the_same_picture(explorer):
+    shown = explorer()
+    begun = shown.state, shown.verdict, shown.png
+    for name in explorer.presets:
+        shown.preset(name)
+        assert shown.verdict == explorer.from_state(explorer.presets[name]).verdict
+    shown.reset()
+    assert (shown.state, shown.verdict, shown.png) == begun
+
+
+@every
+def test_presets_differ_in_what_they_say(explorer):
+    said = [explorer.snapshot(state).verdict for state in explorer.presets.values()]
+    assert len(set(said)) == len(said)
+
+
+@every
+def test_one_change_is_answered_once(explorer, monkeypatch):
+    shown, asked = explorer(), []
+    png = Picture.png
+    monkeypatch.setattr(Picture, "png", lambda self, *args: asked.append(args) or png(self, *args))
+    for control in (c for c in explorer.controls if isinstance(c, Number)):
+        asked.clear()
+        slider, box = shown._rows[control.name].widget.children[:2]
+        slider.value = control.low
+        assert len(asked) == 1, control.name
+        assert box.value == pytest.approx(control.low)
+        box.value = control.high
+        assert len(asked) == 2, control.name
+        assert slider.value == pytest.approx(control.high)
+
+
+@every
+def test_what_is_wrong_is_said_and_can_be_put_right(explorer):
+    shown = explorer()
+    begun = shown.verdict
+    for control in (c for c in explorer.controls if isinstance(c, Number)):
+        box = shown._rows[control.name].widget.children[1]
+        box.value = -(10**9)
+        assert control.name in shown.verdict
+        assert "got" in shown.verdict
+        assert 'role="alert"' in shown._said.value
+        assert shown._image.layout.visibility == "hidden"
+        box.value = control.default
+        assert shown.verdict == begun
+        assert shown._image.layout.visibility == "visible"
+
+
+@every
+def test_states_and_names_that_make_no_sense(explorer):
+    with pytest.raises(ValueError, match=r"state must be NAME=VALUE .* got 'nonsense'"):
+        explorer.from_state("nonsense")
+    with pytest.raises(TypeError, match="the controls of"):
+        explorer(nonsense=1)
+    with pytest.raises(ValueError, match="name must be one of"):
+        explorer().preset("nonsense")
+    shown = explorer()
+    begun = shown.state
+    shown._copy.value = "nonsense=1"
+    assert shown.verdict.startswith("state must be")
+    assert shown.state == begun
+
+
+@every
+def test_labels_are_there_for_those_who_listen(explorer):
+    for control in (*explorer.controls, *explorer.looks):
+        assert control.label
+        row = control.build(lambda: None)
+        assert row.widget.children[0].description == control.label
+        if isinstance(control, Number):
+            assert row.widget.children[1].tooltip == control.label
+    assert all(isinstance(control, (Number, Choice, Line)) for control in explorer.controls)
+
+
+@every
+def test_a_snapshot_says_what_it_shows(explorer):
+    still = explorer.snapshot()
+    data, metadata = still._repr_mimebundle_()
+    assert still.verdict == explorer().verdict
+    assert still.verdict in data["text/plain"]
+    assert metadata["image/png"]["alt"] == still.verdict
+    assert pixels(data["image/png"]).shape[1] > 700
+
+
+@pytest.mark.slow
+@every
+def test_nothing_piles_up(explorer):
+    steps = 500 if explorer is explorers.BaseStateExplorer else 100
+    shown = explorer()
+    control = next(c for c in explorer.controls if isinstance(c, Number))
+    slider = shown._rows[control.name].widget.children[0]
+    values = np.linspace(control.low, control.high, 26)
+    values = (np.unique(np.round(values)).astype(int) if control.whole else values).tolist()
+
+    def walk(times):
+        for value in itertools.islice(itertools.cycle(values), times):
+            slider.value = value
+        gc.collect()
+        return len(gc.get_objects())
+
+    before = walk(60)
+    assert walk(steps) - before < steps / 2  # less than one object every other step
