@@ -1,4 +1,7 @@
-"""Regenerate the figures, each with a JSON of its numbers: ``python figures/regenerate.py [NAME ...]``."""
+"""Regenerate the figures, each with a JSON of its numbers: ``python figures/regenerate.py [NAME ...]``.
+
+Movies are made on request, that is by name: as mp4 where ffmpeg is found, else as GIF.
+"""
 
 import argparse
 import json
@@ -12,17 +15,20 @@ from tempfile import TemporaryDirectory
 import sidecar
 from tqdm import tqdm
 
+from primer.view.movie import MOVIES, Movie, save_movie, writable
 from primer.view.style import FORMATS, save, styled
 
 HERE = Path(__file__).resolve().parent
-NAMES = sorted(path.stem for path in HERE.glob("*.py") if path.stem not in ("regenerate", "sidecar"))
+ON_REQUEST = ["blow_up_movie"]  # too slow to draw each time
+NAMES = sorted({path.stem for path in HERE.glob("*.py")} - {"regenerate", "sidecar", *ON_REQUEST})
 
 
 def main(arguments=None):
     options = _options(arguments)
     if options.list:
-        for name in NAMES:
-            print(f"{name:18s} {import_module(name).__doc__.splitlines()[0]}")
+        for name in NAMES + ON_REQUEST:
+            note = " [on request]" if name in ON_REQUEST else ""
+            print(f"{name:18s} {import_module(name).__doc__.splitlines()[0]}{note}")
         return 0
     job, tell = (_check, "checked") if options.check else (_make, "written")
     problems = []
@@ -51,10 +57,12 @@ def _make(name, out, formats):
     script = import_module(name)
     result = script.compute()
     with TemporaryDirectory(dir=out, prefix=".regenerate-") as aside, styled():
+        formats = formats or (writable()[:1] if name in ON_REQUEST else ["svg"])
         files = [Path(aside, f"{name}.json"), *(Path(aside, f"{name}.{ending}") for ending in formats)]
         files[0].write_text(sidecar.dumps(script.numbers(result)), encoding="utf-8")
         for picture in files[1:]:
-            save(script.draw(result), picture)
+            drawn = script.draw(result)
+            (save_movie if isinstance(drawn, Movie) else save)(drawn, picture)
         for file in files:
             os.replace(file, Path(out, file.name))
     return []
@@ -71,8 +79,11 @@ def _check(name, out, formats):
 
 
 def _options(arguments):
-    parser = argparse.ArgumentParser(prog="regenerate.py", description=__doc__, allow_abbrev=False)
-    parser.add_argument("names", nargs="*", metavar="NAME", help="figures to make (default: all; see --list)")
+    about = __doc__.replace("``", "")
+    parser = argparse.ArgumentParser(prog="regenerate.py", description=about, allow_abbrev=False)
+    parser.add_argument(
+        "names", nargs="*", metavar="NAME", help="figures to make (default: all but movies; see --list)"
+    )
     parser.add_argument("--list", action="store_true", help="list the figures and what they show, and stop")
     parser.add_argument(
         "--out", type=Path, default=HERE, metavar="DIR", help="folder of the pictures (default: figures/)"
@@ -83,18 +94,25 @@ def _options(arguments):
     parser.add_argument(
         "--jobs", type=int, default=os.cpu_count() or 1, metavar="N", help="processes (default: all cores)"
     )
-    parser.add_argument("--formats", default="svg", help=f"some of {','.join(FORMATS)} (default: svg)")
+    parser.add_argument("--formats", help=f"some of {','.join(FORMATS)} (default: svg), or of {','.join(MOVIES)}")
     options = parser.parse_args(arguments)
     for name in options.names:
-        if name not in NAMES:
-            parser.error(f"NAME must be one of {', '.join(NAMES)}, got {name!r}")
+        if name not in NAMES + ON_REQUEST:
+            parser.error(f"NAME must be one of {', '.join(NAMES + ON_REQUEST)}, got {name!r}")
     options.names = list(dict.fromkeys(options.names)) or NAMES
     if options.jobs < 1:
         parser.error(f"--jobs must be >= 1, got {options.jobs}")
-    options.formats = list(dict.fromkeys(options.formats.split(",")))
-    for ending in options.formats:
-        if ending not in FORMATS:
-            parser.error(f"--formats must be some of {','.join(FORMATS)}, got {ending!r}")
+    movies = [name for name in options.names if name in ON_REQUEST]
+    if movies and not writable() and not options.check:
+        parser.error(f"{movies[0]} needs ffmpeg or Pillow to be written, and neither is here")
+    if options.formats is not None:
+        allowed = writable() if movies else FORMATS
+        options.formats = list(dict.fromkeys(options.formats.split(",")))
+        if movies and len(movies) < len(options.names):
+            parser.error(f"--formats of {movies[0]} are not those of figures: make it in a call of its own")
+        for ending in options.formats:
+            if ending not in allowed:
+                parser.error(f"--formats must be some of {','.join(allowed)}, got {ending!r}")
     if not (options.check or options.list):
         try:
             options.out.mkdir(parents=True, exist_ok=True)

@@ -3,21 +3,37 @@
 import argparse
 import json
 import math
+import os
 import sys
+from dataclasses import asdict
 
 from primer import __version__
+from primer.claims import VERDICTS, claims
+from primer.claims import report as claims_report
 from primer.granular.command import add_command as add_granular
 from primer.lab import add_command as add_lab
 
 
 def main(arguments=None):
-    """Run one command; 0 if it did what was asked, 2 (and the reason on stderr) if the input cannot be used."""
-    options = _parser().parse_args(arguments)
+    """Run one command and return its exit code, as shells know them.
+
+    0 if it did what was asked; 2, and the reason on stderr, if the input cannot be used; 130 after Ctrl-C; 141 if the
+    reader of its output went away, as ``head`` does.
+    """
+    parser = _parser()
     try:
-        print(options.command(options))
+        if not (sys.argv[1:] if arguments is None else arguments):
+            parser.exit(2, parser.format_help())
+        options = parser.parse_args(arguments)
+        print(options.command(options), flush=True)
     except (ValueError, TypeError) as error:
         print(f"primer: {error}", file=sys.stderr)
         return 2
+    except KeyboardInterrupt:
+        return 130
+    except BrokenPipeError:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # the flush at exit must not fail once more
+        return 141
     return 0
 
 
@@ -30,6 +46,7 @@ def _parser():
     _add_verdict(commands)
     add_granular(commands)
     add_lab(commands)
+    _add_claims(commands)
     return parser
 
 
@@ -76,6 +93,26 @@ def _verdict(options):
     if len(found.direction) == 2:
         rows.append(("direction", "({:.6g}, {:.6g})".format(*found.direction)))
     return "\n".join(f"{name + ':':12s} {value}" for name, value in [*rows, ("reason", found.reason)])
+
+
+def _add_claims(commands):
+    sub = commands.add_parser(
+        "claims",
+        help="what the paper claims, what was computed, and what shows it",
+        description="List the checkable claims of the paper, each with what was computed, the figure or test that "
+        "shows it, and the verdict.",
+        epilog="example: primer claims --verdict corrected",
+        allow_abbrev=False,
+    )
+    sub.add_argument("word", nargs="?", default="", metavar="WORD", help="only claims that hold this text")
+    sub.add_argument("--verdict", choices=VERDICTS, help="only claims of this verdict")
+    sub.add_argument("--json", action="store_true", help="print a JSON array of objects")
+    sub.set_defaults(command=_claims)
+
+
+def _claims(options):
+    found = claims(options.word, options.verdict)
+    return json.dumps([asdict(claim) for claim in found], indent=1) if options.json else claims_report(found)
 
 
 def _plain(value):

@@ -23,6 +23,13 @@ class MaxGrowth:
     k : array of shape s            the wavenumbers
     growth : array of shape s       max Re lambda over branches and directions
     direction : array               unit vectors of shape (2,) + s in two space variables; signs, of shape s, in one
+
+    The supremum over directions of eq. (wellp-first-formula), at one length of xi.
+
+    >>> from primer.analysis.symbolic import pencil
+    >>> found = max_growth(pencil("u_t = u_xx - u_yy"), 10.0)
+    >>> print(f"{found.growth:.2f}", abs(found.direction).round(3))
+    100.00 [0. 1.]
     """
 
     k: np.ndarray
@@ -47,6 +54,13 @@ def max_growth(pencil, k):
     Returns
     -------
     MaxGrowth
+
+    Section 4 asks for the supremum over directions too, eq. (wellp-first-formula).
+
+    >>> import numpy as np
+    >>> forward_backward = Pencil(lambda xi: [[xi[0] ** 2 - xi[1] ** 2]], np.eye(1), dim=2)
+    >>> print(f"{max_growth(forward_backward, 10.0).growth:.2f}")
+    100.00
     """
     if not isinstance(pencil, Pencil):
         raise TypeError(f"pencil must be a Pencil (for equations as text there is growth_rates), got {shown(pencil)}")

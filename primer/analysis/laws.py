@@ -33,6 +33,14 @@ def growth_laws(pde, /, direction=None, *, at=None, order="full", **parameters):
     Raises
     ------
     ValueError    as for :func:`primer.verdict`, and for a pencil whose entries are not polynomials in xi
+
+    Eq. (toy-eig) is the case of the toy system.
+
+    >>> toy = "u_t = v_x; v_t = eps*u*v_xx + u_x - v - sin(x)"
+    >>> for branch in growth_laws(toy, at={"u": -0.5, "v_xx": 0}, eps=0.01):
+    ...     print(branch.exponent, f"{complex(branch.coefficient).real:.4f}")
+    2 0.0050
+    0 200.0000
     """
     exact = exact_symbol(pde, at=at, order=order, **parameters)
     d = np.atleast_1d(real_array("direction", [1, 0][: exact.dim] if direction is None else direction))

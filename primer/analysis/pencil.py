@@ -32,6 +32,10 @@ class Pencil:
     ------
     TypeError, ValueError    if the shapes do not fit, or det(lambda E + S) vanishes identically: then the equations do
                              not determine the unknowns
+
+    >>> heat = Pencil(lambda xi: [[xi**2]], [[1.0]], dim=1)  # u_t = u_xx
+    >>> print(heat.eigenvalues(3.0).real)
+    [-9.]
     """
 
     S: Callable | np.ndarray
@@ -125,6 +129,12 @@ def growth(pencil, xi):
     """The growth rate max Re lambda over the finite eigenvalues, at xi of shape s or (2,) + s: shape s.
 
     -inf if there is none (no equation contains a time derivative).
+
+    The quantity of eq. (cond-well-p).
+
+    >>> backward_heat = Pencil(lambda xi: [[-(xi**2)]], [[1.0]], dim=1)
+    >>> print(growth(backward_heat, [1.0, 10.0]))
+    [  1. 100.]
     """
     if not isinstance(pencil, Pencil):
         raise TypeError(f"pencil must be a Pencil (for equations as text there is growth_rates), got {shown(pencil)}")

@@ -15,6 +15,7 @@ def trimmed(p, least):
 
 
 def derivative(p):
+    """p', the coefficients from the constant one upwards."""
     return [n * a for n, a in enumerate(p)][1:]
 
 

@@ -63,6 +63,11 @@ def growth_rates(text, xi, *, at=None, order="full", multiplier=None, **paramete
     Returns
     -------
     complex array of shape s + (number of finite branches,), sorted by decreasing real part
+
+    The eigenvalues of eq. (toy-mat), for the toy system.
+
+    >>> print(growth_rates("u_t = u_xxx - u_xx", [1.0, 10.0]).real.ravel())
+    [  1. 100.]
     """
     return pencil(text, at=at, order=order, multiplier=multiplier, **parameters).eigenvalues(xi)
 
@@ -94,6 +99,9 @@ def linearise(text, *, at=None, order="full", **parameters):
                     solved for them); otherwise, as with constraints or a second time derivative, M, with M q = 0,
                     whose entries contain lambda. The unknowns q are in the order in which they occur, those with a time
                     derivative first.
+
+    >>> print(linearise("u_t = u*u_x + u_xx", at={"u": 2, "u_x": 0}))
+    Matrix([[-xi**2 + 2*I*xi]])
     """
     system, values = _read(text, at, order, parameters)
     lam, *xi = sp.symbols("lambda xi") if system.dim == 1 else sp.symbols("lambda xi_1 xi_2")

@@ -32,7 +32,17 @@ _SPOKEN = str.maketrans({"−": "-", "·": "*", "×": "*"})  # noqa: RUF001
 
 
 class PDEError(ValueError):
-    """The text of an equation, or what goes with it, cannot be used; the message shows the text and the place."""
+    """The text of an equation, or what goes with it, cannot be used; the message shows the text and the place.
+
+    Section A2.1 needs equations that determine their unknowns, in the notation of ``primer verdict``.
+
+    >>> from primer import verdict
+    >>> try:
+    ...     verdict("u_t = foo(u)")
+    ... except PDEError as error:
+    ...     print("foo" in str(error))
+    True
+    """
 
     def __init__(self, problem, text="", place=None):
         super().__init__(problem if place is None else f"{problem}\n{_marked(text, place)}")

@@ -43,6 +43,12 @@ class Verdict:
         whether anything grows, bound > 0; with a finite bound that is instability, not ill-posedness
     reason : str
         one sentence
+
+    The definition of linear ill-posedness is that of section A2.1.
+
+    >>> found = verdict("u_t = -u_xx - u_xxxx")
+    >>> print(found.kind, found.unstable, found.bound)  # an instability, but not ill-posedness
+    well-posed True 0.25
     """
 
     kind: Kind
@@ -71,6 +77,12 @@ def verdict(pde, /, *, at=None, order="full", **parameters):
     Raises
     ------
     PDEError    (a ValueError) for text that cannot be used or values that are not given
+
+    >>> print(verdict("u_t = u_xxx - u_xx").kind)
+    ill-posed
+    >>> toy = "u_t = v_x; v_t = eps*u*v_xx + u_x - v - sin(x)"
+    >>> [str(verdict(toy, at={"u": u, "v_xx": 0.3}, eps=0.01).kind) for u in (1.5, -0.5)]  # eq. (toy-pde)
+    ['well-posed', 'ill-posed']
     """
     try:
         exact = exact_symbol(pde, at=at, order=order, **parameters)

@@ -20,6 +20,10 @@ class Compaction:
     Raises
     ------
     TypeError, ValueError    if a parameter is not a finite number in its range
+
+    >>> packing = Compaction(phi0=0.5, eps=0.1, C0=1.0)
+    >>> print(f"{packing.C(0.55):.4f} {packing.phi(1.0):.4f}")
+    1.0000 0.5500
     """
 
     phi0: float

@@ -78,7 +78,7 @@ class IncompressibleCriterion:
 
 
 def incompressible_criterion(friction, I):
-    """The ``IncompressibleCriterion`` of a friction law with mu(I) and dmu(I)."""
+    """The ``IncompressibleCriterion`` of a friction law with mu(I) and dmu(I), for eq. (mu(I)-system-mom)."""
     friction, I = as_friction(friction), inertial("I", I)
     mu = friction.mu(I)
     n = I * friction.dmu(I) / mu
@@ -99,6 +99,12 @@ def neutral_inertial_numbers(friction, low=1e-12, high=1e12):
 
     A scan in log I of 200 points a decade finds the sign changes of the largest growth rate, and minima in between that
     dip below zero; then bisection.
+
+    The criterion is that of Barker et al., J. Fluid Mech. 779 (2015); see section 2.2.
+
+    >>> from primer import MuI
+    >>> print(neutral_inertial_numbers(MuI(0.383, 0.643, 0.279)).round(6))
+    [0.019713 0.845783]
     """
     friction = as_friction(friction)
     low = real("low", low, above=0)
@@ -132,6 +138,11 @@ def critical_state(law, phi, I=0.1, d=1.0, rho=1.0):
     Raises
     ------
     TypeError    if the law is incompressible (every state is critical) or has no p_critical
+
+    >>> from primer import CSSM, Compaction
+    >>> state = critical_state(CSSM(0.4, Compaction(phi0=0.5, eps=0.1, C0=1.0)), phi=0.55)
+    >>> print(f"{state.p:.4f}")  # mu C(phi)
+    0.4000
     """
     if not hasattr(law, "p_critical"):
         raise TypeError(f"law must have a critical state, as CSSM and CIDR do, got {shown(law)}")

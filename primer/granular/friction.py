@@ -31,6 +31,12 @@ class MuI:
     Raises
     ------
     TypeError, ValueError    if a parameter is not a finite number in its range
+
+    >>> beads = MuI(mu1=0.383, mu2=0.643, I0=0.279)
+    >>> print(f"{beads.mu(0.279):.4f}")
+    0.5130
+    >>> print(f"{beads.alpha(0.1) - beads.beta(0.1) / 2 - beads.mu(0.1):.12f}")  # eq. (Cmu-limit-beh-2)
+    0.000000000000
     """
 
     mu1: float
@@ -90,6 +96,10 @@ class Friction:
     Parameters
     ----------
     mu, dmu : callable    mu(I) and its derivative mu'(I), each taking and giving arrays, for I >= 0
+
+    >>> still = Friction(lambda I: 0.4 + 0 * I, lambda I: 0 * I)
+    >>> print(f"{still.alpha(0.1):.6f} {still.beta(0.1):.6f}")  # both 2 mu: CIDR is then CSSM
+    0.800000 0.800000
     """
 
     mu: Callable

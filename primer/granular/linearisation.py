@@ -42,7 +42,7 @@ class Coefficients:
 
 
 def coefficients(law, state):
-    """The ``Coefficients`` of a law at a base state, arrays of the state's shape.
+    """The ``Coefficients`` of a law at a base state, eqs. (e22-a) and (e22-b), arrays of the state's shape.
 
     Raises
     ------

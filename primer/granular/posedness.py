@@ -15,6 +15,8 @@ from primer.granular.linearisation import coefficients
 def verdict(law, state):
     """Whether the frozen equations of a law are linearly well posed at a base state, and how fast they grow if not.
 
+    Linearly well posed is eq. (wellp-first-formula).
+
     Returns
     -------
     primer.analysis.verdict.Verdict, with the fields it has there for a single state. For an array of states the fields
@@ -54,12 +56,23 @@ def growth_limit(law, state):
 
     lambda_3 -> -phi N(x)/Delta(x), see ``dispersion``, a quotient of quadratics in x = cos 2 theta. inf where the law
     is ill posed; -inf where every mode is damped without bound (a well-posed incompressible law).
+
+    Section 4: the limit of the third growth rate, see (wellp-first-formula).
+
+    >>> from primer import CIDR, BaseState
+    >>> from primer.granular import EXAMPLE_COMPACTION, GLASS_BEADS
+    >>> law = CIDR(GLASS_BEADS.friction, EXAMPLE_COMPACTION)
+    >>> print(f"{growth_limit(law, BaseState(p=0.2, phi=0.55, I=0.1)):.6f}")  # unstable, yet well posed
+    1.000070
     """
     return leading(coefficients(law, state)).limit
 
 
 def largest_growth(law, state, k):
-    """(growth, direction): the largest growth rate at |xi| = k over all directions, and a unit vector (2,) + shape."""
+    """(growth, direction): the largest growth rate at |xi| = k over all directions, and a unit vector (2,) + shape.
+
+    The growth rates are those of eq. (e24).
+    """
     rate, x = fastest(coefficients(law, state), k)
     return rate, _direction(x)
 

@@ -38,6 +38,9 @@ class Coulomb(_Incompressible):
     Parameters
     ----------
     mu : float    the friction coefficient, dimensionless, mu > 0
+
+    >>> print(f"{Coulomb(0.4).Y(p=2.0, phi=0.6, I=0.1):.2f}")
+    0.80
     """
 
     mu: float
@@ -65,6 +68,10 @@ class IncompressibleMuI(_Incompressible):
     Parameters
     ----------
     friction    a law with mu(I) and dmu(I), such as ``MuI`` or ``Friction(mu, dmu)``
+
+    >>> from primer import MuI
+    >>> print(f"{IncompressibleMuI(MuI(0.38, 0.64, 0.279)).Y(p=2.0, phi=0.6, I=0.279):.2f}")
+    1.02
     """
 
     friction: Any
@@ -140,9 +147,7 @@ class _Compressible:
         return C
 
     def _check_compaction(self):
-        if not isinstance(self.compaction, Compaction) and not (
-            hasattr(self.compaction, "C") and hasattr(self.compaction, "dC")
-        ):
+        if not (hasattr(self.compaction, "C") and hasattr(self.compaction, "dC")):
             raise TypeError(f"compaction must be a Compaction(phi0, eps, C0), got {shown(self.compaction)}")
 
 
@@ -156,6 +161,10 @@ class CSSM(_Compressible):
     ----------
     mu : float                 the friction coefficient on the critical state line, dimensionless, mu > 0
     compaction : Compaction    C(phi)
+
+    >>> soil = CSSM(0.4, Compaction(phi0=0.5, eps=0.1, C0=1.0))
+    >>> print(f"{soil.p_critical(0.55, 0.1):.2f}, {soil.f(0.2, 0.55, 0.1):.2f}")  # f > 0: it dilates
+    0.40, 0.40
     """
 
     mu: float
@@ -188,6 +197,11 @@ class CIDR(_Compressible):
     ----------
     friction                   a law with mu(I) and dmu(I); where it has no alpha and beta of its own, by quadrature
     compaction : Compaction    C(phi)
+
+    >>> from primer.granular import GLASS_BEADS
+    >>> law = CIDR(GLASS_BEADS.friction, Compaction(phi0=0.5, eps=0.1, C0=1.0))
+    >>> print(f"{law.Y(0.2, 0.55, 0.1):.6f}")
+    0.130189
     """
 
     friction: Any

@@ -26,6 +26,12 @@ class BaseState:
     Raises
     ------
     TypeError, ValueError    if a number is not finite or outside its range, or if the shapes do not broadcast
+
+    The scales are those of eqs. (dfn-norm) and (dfn-I).
+
+    >>> state = BaseState(p=0.2, phi=0.55, I=0.1)
+    >>> print(f"{state.D:.5f}")
+    0.02236
     """
 
     p: float
@@ -71,8 +77,8 @@ class BaseState:
 def admit(law, state):
     """Return Y at the state, or say in one sentence why the law does not admit it.
 
-    The paper uses, without saying so, that the yield stress is positive: 0 < p < alpha(I) C(phi) in CIDR and
-    0 < p < 2 mu C(phi) in CSSM. At phi = phi0 itself C = 0, and no pressure is admissible.
+    The Theorem of the paper uses, without saying so, that the yield stress is positive: 0 < p < alpha(I) C(phi) in
+    CIDR and 0 < p < 2 mu C(phi) in CSSM. At phi = phi0 itself C = 0, and no pressure is admissible.
 
     Raises
     ------

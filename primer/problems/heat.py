@@ -29,6 +29,11 @@ class BackwardHeat:
     Raises
     ------
     TypeError, ValueError    if xi is not an integer >= 1 or amplitude is not a finite real number
+
+    >>> heat = BackwardHeat(xi=3)
+    >>> (u,) = heat.exact(0.5, t=0.1)  # sin(3/2) e^{0.9}
+    >>> print(f"{u:.4f}")
+    2.4534
     """
 
     xi: int = 1

@@ -37,6 +37,14 @@ class Toy:
     Raises
     ------
     TypeError, ValueError    if a or eps is not a finite real number, or eps < 0
+
+    >>> toy = Toy(a=0.5, eps=0.01)
+    >>> u, v = toy.steady(0.0)  # u = a - cos x is negative here
+    >>> print(f"{u:.1f}, {v:.1f}")
+    -0.5, 0.0
+    >>> growth = np.linalg.eigvals(toy.symbol(1e4, u=-0.5)).real.max()
+    >>> print(f"{growth:.0f}")  # -eps u xi^2 - 1 + 1/(eps u), eq. (toy-eig)
+    499799
     """
 
     a: float

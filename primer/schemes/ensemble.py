@@ -43,6 +43,12 @@ def ftcs_ensemble(
     Raises
     ------
     TypeError, ValueError    in one sentence, for an argument that is not allowed
+
+    The scheme of section A2.2.2.
+
+    >>> runs = ftcs_ensemble([Toy(0.5), Toy(1.5)], n=30, t_end=5.0)
+    >>> [run.t_first_negative is not None for run in runs]
+    [True, False]
     """
     if isinstance(problems, str) or not np.iterable(problems):
         raise TypeError(f"problems must be a sequence of problems, got {shown(problems)}")

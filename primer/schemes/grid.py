@@ -1,4 +1,14 @@
-"""The periodic grid, and stencils that carry their own Fourier multipliers."""
+"""The periodic grid, and stencils that carry their own Fourier multipliers.
+
+``CENTRAL`` holds the stencils of the paper's scheme (section A2.2.2), ``CENTRAL_4`` and ``CENTRAL_6`` those of higher
+order (Fornberg, Math. Comp. 51 (1988) 699), as tables derivative -> stencil:
+
+>>> for table in (CENTRAL, CENTRAL_4, CENTRAL_6):
+...     print(table[1].order, f"{table[1](np.sin(Grid(16).x), Grid(16).h)[8]:.6f}")  # cos 0 = 1
+2 0.974495
+4 0.999222
+6 0.999975
+"""
 
 import math
 from dataclasses import dataclass

@@ -27,6 +27,13 @@ class Lines:
     space, time          the derivatives and the step
     x                    (n,) the grid
     final                the fields at t, each of shape (n,); NaN where the march blew up
+
+    It serves the equations of Appendix 2; the paper itself uses ``ftcs``.
+
+    >>> from primer import FOURIER, RK8, Toy, march_lines
+    >>> end = march_lines(Toy(1.5), 16, 0.1, 5.0, FOURIER, RK8)
+    >>> print(end.t, end.blew_up, [f.shape for f in end.final])
+    5.0 False [(16,), (16,)]
     """
 
     problem: object
@@ -67,6 +74,14 @@ def march_lines(problem, n, dt, t_end, space=CENTRAL, time=RK4):
     Raises
     ------
     TypeError, ValueError    in one sentence, for an argument that is not allowed
+
+    For eqs. (toy-pde) and (backward-heat), with other schemes than the paper's.
+
+    >>> from primer import FOURIER, RK8
+    >>> toy = Toy(1.5, eps=0)
+    >>> end = march_lines(toy, 16, 0.1, 5.0, FOURIER, RK8)
+    >>> bool(np.abs(end.final[0] - toy.exact(end.x, 5.0)[0]).max() < 1e-9)  # eq. (toy-sln)
+    True
     """
     if isinstance(problem, type) or not all(hasattr(problem, part) for part in ("initial", "forcing", "rhs")):
         raise TypeError(f"problem must be a Toy, a BackwardHeat or an object with their methods, got {shown(problem)}")

@@ -23,7 +23,17 @@ _LOOK_AHEAD = 100.0  # time (the paper's longest) up to which an ill-posed case 
 
 
 class PastHorizon(ArithmeticError):
-    """There is no trustworthy answer at the time asked for; ``horizon`` is the time up to which there is one."""
+    """There is no trustworthy answer at the time asked for; ``horizon`` is the time up to which there is one.
+
+    Where u < 0 in eq. (toy-pde) the answer is lost sooner or later, Hadamard's third condition (A2.1).
+
+    >>> from primer import Toy, reference
+    >>> try:
+    ...     reference(Toy(-1.0), 50.0)
+    ... except PastHorizon as refusal:
+    ...     print(refusal.horizon < 50)
+    True
+    """
 
     def __init__(self, message, horizon):
         super().__init__(message, horizon)
@@ -46,6 +56,14 @@ class Reference:
     error       (m,) estimates of the largest error of u and v at each time
     horizon     the time up to which the answer was found to hold: the last of t; or, where u < 0 makes the equations
                 ill posed, as far as it goes (looked for up to t = 100, or the last of t if that is later)
+
+    The solution of eq. (toy-pde), with an error bar.
+
+    >>> from primer import Toy, reference
+    >>> truth = reference(Toy(1.5), [1.0, 5.0])
+    >>> u, v = truth.at(0.0)
+    >>> print(u.round(6), bool((truth.error < truth.tol).all()))
+    [0.895594 0.468617] True
     """
 
     toy: Toy
@@ -94,6 +112,11 @@ def reference(toy, t, tol=1e-10):
     ------
     PastHorizon              if no answer within tol can be had at one of the times; ``.horizon`` says up to when it can
     TypeError, ValueError    in one sentence, for an argument that is not allowed, or a march of more than 10^7 steps
+
+    >>> toy = Toy(1.5, eps=0)
+    >>> truth = reference(toy, 2.0)
+    >>> bool(np.abs(truth.u - toy.exact(truth.x, 2.0)[0]).max() < 1e-10)  # eq. (toy-sln)
+    True
     """
     if not isinstance(toy, Toy):
         raise TypeError(f"toy must be a Toy, got {shown(toy)}")

@@ -12,7 +12,13 @@ from primer.checks import integer, real, shown
 
 
 class Stop(StrEnum):
-    """Why a run stopped. A blow-up is an outcome, not an error."""
+    """Why a run stopped. A blow-up is an outcome, not an error.
+
+    Figures 4 to 6 of the paper end as REACHED_END, BLEW_UP and REACHED_END.
+
+    >>> Stop("blew_up") is Stop.BLEW_UP, str(Stop.BLEW_UP)
+    (True, 'blew_up')
+    """
 
     REACHED_END = "reached_end"
     BLEW_UP = "blew_up"
@@ -29,6 +35,12 @@ class Seed:
     Raises
     ------
     TypeError, ValueError    if mode is not an integer >= 0, or amplitude or phase is not finite, or field is no text
+
+    Added to eq. (toy-initial), it stands in for round-off.
+
+    >>> bump = Seed(mode=3, amplitude=1e-6, phase=0.0)
+    >>> print(f"{bump(0.0):.1e}")
+    1.0e-06
     """
 
     mode: int
@@ -65,6 +77,11 @@ class Run:
     stop, t_stop        why and when the run stopped
     seed                the perturbation that was added to the initial data, or None
     blow_up_at          the Dist above which the run counts as blown up
+
+    >>> from primer import Toy, ftcs
+    >>> run = ftcs(Toy(1.5), n=30, t_end=5.0)
+    >>> print(run.stop, run.x.shape, len(run.final), run.t_first_negative)
+    reached_end (30,) 2 None
     """
 
     problem: object

@@ -1,4 +1,15 @@
-"""Explicit Runge-Kutta steps, as tables of numbers with their source."""
+"""Explicit Runge-Kutta steps, as tables of numbers with their source.
+
+``RK4`` (Kutta 1901) and ``RK8`` (Dormand & Prince; Hairer, Norsett & Wanner (1993)) march y' = -y to t = 1:
+
+>>> for step in (RK4, RK8):
+...     y = np.array([1.0])
+...     for _ in range(4):
+...         y = step.step(lambda y: -y, y, 0.25)
+...     print(step.name, step.order, f"{abs(y[0] - np.exp(-1)):.0e}")
+RK4 4 1e-05
+RK8 8 4e-13
+"""
 
 from dataclasses import dataclass, field
 from functools import cached_property

@@ -85,6 +85,7 @@ def _reference(toy, tol, t_end):
 
 
 def solve_ivp(toy, tol, t_end, method, n=None, space=FOURIER):
+    """(x, fields, dt) at t_end by a method of scipy.integrate.solve_ivp; dt is NaN, its own step control's."""
     from scipy.integrate import solve_ivp as integrate
 
     n = n or (12 if tol > 1e-7 else 16 if tol > 1e-11 else 24)

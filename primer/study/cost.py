@@ -68,6 +68,14 @@ def work_precision(toy=None, t_end=5.0, methods=None, patience=1.0, repeats=5):
     -------
     WorkPrecision; an error is the largest of u and v on the method's grid (infinite after a blow-up), against a
     reference with an error bar below 1e-13 (|a| + 2)
+
+    For eq. (toy-pde).
+
+    >>> from primer.study.contestants import contestants
+    >>> (paper,) = [method for method in contestants() if method.name == "FTCS"]
+    >>> found = work_precision(methods=[paper], patience=0.01, repeats=1)
+    >>> print(found.methods, found.points[0].n, f"{found.points[0].error:.4f}")
+    ('FTCS',) 25 0.0146
     """
     toy = Toy(1.5) if toy is None else toy
     t_end, patience = real("t_end", t_end, above=0), real("patience", patience, above=0)
@@ -104,6 +112,13 @@ def cost_against_n(toy=None, t_end=5.0, ns=(50, 100, 200, 400, 800, 1600, 3200),
     Returns
     -------
     tuple of ``Point``, with error NaN
+
+    For eq. (toy-pde).
+
+    >>> from primer.study.contestants import contestants
+    >>> (paper,) = [method for method in contestants() if method.name == "FTCS"]
+    >>> [point.n for point in cost_against_n(ns=(20, 40), methods=[paper], seconds=1e-3)]
+    [20, 40]
     """
     toy, points = Toy(1.5) if toy is None else toy, []
     for method in contestants(with_py_pde=False) if methods is None else methods:

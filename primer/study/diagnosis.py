@@ -45,6 +45,14 @@ class Diagnosis:
     seed       the stated perturbation, or None
     seeded     whether the blow-up grows from it rather than from round-off
     t_blow_up  the single best guess, also where it lies after t_end; infinite if never
+
+    Figures 4 to 6 of the paper are of the kinds converges, ill-posed and hidden.
+
+    >>> from primer import Toy
+    >>> found = diagnose(Toy(0.5), n=100)
+    >>> earliest, latest = found.blow_up
+    >>> print(found.kind, earliest < 14 < latest, f"{found.growth:.3f}")
+    ill-posed True 2.724
     """
 
     kind: Kind
@@ -79,6 +87,11 @@ def diagnose(toy, n=100, dt=1e-3, t_end=100.0, seed=None, dtype=np.float64, digi
     Raises
     ------
     TypeError, ValueError    in one sentence, for an argument that is not allowed
+
+    The scheme is that of section A2.2.2.
+
+    >>> [str(diagnose(Toy(a), n).kind) for a, n in ((1.5, 100), (0.5, 100), (0.5, 30))]  # Figures 4 to 6
+    ['converges', 'ill-posed', 'hidden']
     """
     if not isinstance(toy, Toy):
         raise TypeError(f"toy must be a Toy, got {shown(toy)}")

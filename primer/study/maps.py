@@ -79,6 +79,13 @@ def blow_up_map(
     Raises
     ------
     TypeError, ValueError    in one sentence, for an argument that is not allowed
+
+    Section A2.2.2.
+
+    >>> found = blow_up_map([0.5, 1.5], [30, 100], t_end=20.0, progress=False)  # Figures 4 to 6, and one more
+    >>> np.isfinite(found.t_blow_up)
+    array([[False,  True],
+           [False, False]])
     """
     a = _without_repeats("a_values", [real("a_values", x) for x in real_array("a_values", a_values).ravel().tolist()])
     n = _without_repeats("n_values", [integer("n_values", x, least=4) for x in np.ravel(n_values).tolist()])

@@ -44,6 +44,13 @@ def refine(problem, ns, dt=1e-3, seed=None, **options):
     """March ``problem`` on each of the grids ``ns`` by :func:`primer.ftcs`.
 
     ``dt`` and ``seed`` may also be functions of n; the other options are those of ``ftcs``.
+
+    The end of section A2.2.2.
+
+    >>> from primer import Toy
+    >>> found = refine(Toy(1.5), [25, 50], t_end=40.0)
+    >>> print(f"{found.dist_end[0] / found.dist_end[1]:.1f}")  # second order
+    4.0
     """
 
     def at(n, value):
@@ -87,6 +94,12 @@ def heat_onset(ns, courant=0.02, tolerance=1e-2, sawtooth=0.0, t_end=None, snaps
     sawtooth         amplitude of a stated seed (-1)^j; with 0 round-off is the only seed
     t_end            where the runs end, if they have not blown up; left out, when each grid has surely taken over
     snapshots        times in [0, t_end] at which the fields are kept
+
+    Eq. (backward-heat).
+
+    >>> t = heat_onset([16, 32], sawtooth=1e-12).t
+    >>> print(f"{t[0] / t[1]:.1f}")
+    4.0
     """
     ns, courant = _grids(ns), real("courant", courant, above=0)
     tolerance = real("tolerance", tolerance, least=1e-15, most=1)

@@ -80,6 +80,7 @@ class Nudged:
     fields = Toy.fields
 
     def initial(self, x):
+        """(u, v) of eq. (toy-initial), nudged."""
         u, v = self.toy.initial(x)
         u[self.point] += self.ulps * np.spacing(u[self.point])
         return u, v

@@ -57,6 +57,14 @@ def stable_dt(toy, n, u=None):
     toy, n    the system and its grid
     u         the values of u that count; left out, those of the solution for eps = 0: u = a - m(t) cos x passes
               through a -+ 1.1910 before it settles to a -+ 1
+
+    The scheme of section A2.2.2; what is frozen is eq. (toy-mat).
+
+    >>> from primer import Toy
+    >>> print(f"{stable_dt(Toy(1.5, eps=0), n=100):.6f}")  # h^2
+    0.003948
+    >>> stable_dt(Toy(0.5), n=200)  # no dt will do
+    0.0
     """
     values = real_array("u", u if u is not None else toy.a + np.array([-OVERSHOOT, OVERSHOOT]))
     # Both bounds are monotonic in u: the least and the greatest u decide.

@@ -21,6 +21,12 @@ class GridThreshold:
     frozen    pi/sqrt(eps (1 - a)): where the frozen sawtooth at x = 0 begins to grow; infinite if a >= 1 or eps = 0
     n         the first unstable grid, or None if there is none
     mode      its unstable mode, or None: ``mode.lam``, ``mode.parity``, ``mode.u``, ``mode.v``
+
+    It says why Figure 6 of the paper hides what Figure 5 shows.
+
+    >>> found = grid_threshold(a=0.5, eps=0.02)
+    >>> print(found.n, f"{found.frozen:.2f}", found.mode.lam.real > 0)
+    45 31.42 True
     """
 
     a: float
@@ -45,6 +51,11 @@ def grid_threshold(a, eps=0.01):
     Raises
     ------
     TypeError, ValueError    as ``Toy`` does, and if the first unstable grid is likely to have over 10^6 points
+
+    Section A2.2.2 gives one grid on each side, 30 and 100 points.
+
+    >>> print(grid_threshold(a=0.5, eps=0.01).n)
+    64
     """
     toy = Toy(a, eps)
     frozen = math.pi / math.sqrt(toy.eps * (1 - toy.a)) if toy.a < 1 and toy.eps > 0 else math.inf
