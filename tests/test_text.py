@@ -290,6 +290,25 @@ def test_hostile_text_ends_at_once(ask, name):
     assert time.process_time() - start < 5  # hundredths are usual; an explosion takes for ever
 
 
+def test_a_base_state_does_not_make_numbers_grow_out_of_hand():
+    for text in ("u_t = 3.5^v*u; v_t = v", "u_t = u*((2^v)^v)^v; v_t = v"):
+        with pytest.raises(PDEError, match="a power that is too large to write out"):
+            linearise(text, at={"v": 1e9})
+    assert linearise("u_t = u*2^v; v_t = v", at={"u": 0, "v": 100})[0] == 2**100
+    assert linearise("u_t = a^2*u + x*u_x", a=sp.sqrt(3))[0] == 3 + sp.I * sp.Symbol("x") * xi
+
+
+def test_equations_that_do_not_determine_the_unknowns_are_refused_by_every_route():
+    for ask in (verdict, pencil):
+        with pytest.raises(PDEError, match="do not determine the unknowns"):
+            ask("u_t + v_t = u_x; u_t + v_t = u_x")
+
+
+def test_numbers_at_the_edge_of_what_can_be_represented():
+    """lambda = 0 twice, and -i/xi_2: where one is sought beside the others, entries reach 1e-320. No warning."""
+    assert verdict("u_tt = 0; v = v_yt").kind == "well-posed"
+
+
 @pytest.mark.parametrize("text", [None, 3, b"u_t = u", ["u_t = u"]])
 def test_text_must_be_a_string(text):
     with pytest.raises(TypeError, match="string"):

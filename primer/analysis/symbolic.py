@@ -8,7 +8,7 @@ from primer.analysis.linear import read
 from primer.analysis.roots import DIGITS
 from primer.analysis.symbol import Symbol
 from primer.analysis.text import PDEError
-from primer.analysis.values import checked, evaluated
+from primer.analysis.values import checked, evaluated, substituted
 from primer.checks import shown
 
 
@@ -79,7 +79,10 @@ def pencil(text, *, at=None, order="full", multiplier=None, **parameters):
             raise PDEError(
                 f"the multiplier does not know the derivative of order {m} that the equations contain"
             ) from None
-    return exact.pencil(multiplier)
+    try:
+        return exact.pencil(multiplier)
+    except ValueError as singular:  # the equations do not determine the unknowns
+        raise PDEError(str(singular)) from None
 
 
 def linearise(text, *, at=None, order="full", **parameters):
@@ -102,7 +105,7 @@ def linearise(text, *, at=None, order="full", **parameters):
     for r, slopes in enumerate(system.slopes):
         row = {name: {} for name in system.unknowns}
         for (name, power), slope in sorted(slopes.items(), key=lambda item: -sum(item[0][1][1:])):
-            coefficient = slope.subs(values)
+            coefficient = substituted(slope, values)
             if not (order == "maximal" and _is_lower(power, row[name])) and coefficient != 0:
                 row[name][power] = coefficient
                 n, *orders = power
