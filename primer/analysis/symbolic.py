@@ -1,8 +1,11 @@
 """A PDE as text: linearise, freeze, and look for exponentials (the three steps of section A2.1)."""
 
+from contextlib import suppress
+
 import mpmath as mp
 import numpy as np
 import sympy as sp
+from sympy.matrices.exceptions import NonInvertibleMatrixError
 
 from primer.analysis.linear import read
 from primer.analysis.roots import DIGITS
@@ -113,8 +116,11 @@ def linearise(text, *, at=None, order="full", **parameters):
                 entry = parts.setdefault(n, sp.zeros(size))
                 entry[r, system.unknowns.index(name)] += coefficient * wave
     S, E = (parts.get(n, sp.zeros(size)) for n in (0, 1))
-    if max(parts, default=0) == 1 and (sp.eye(size) == E or (size <= 3 and E.det() != 0)):
-        return -S if sp.eye(size) == E else (E.inv() * -S).applyfunc(_tidied)
+    if max(parts, default=0) == 1 and sp.eye(size) == E:
+        return -S
+    if max(parts, default=0) == 1 and size <= 3:
+        with suppress(NonInvertibleMatrixError):
+            return (E.inv() * -S).applyfunc(_tidied)
     return sum((lam**n * part for n, part in parts.items()), sp.zeros(size))
 
 
