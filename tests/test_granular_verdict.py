@@ -5,6 +5,7 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
+from scipy.optimize import brentq, minimize_scalar
 
 from primer import max_growth
 from primer.analysis.verdict import verdict as general_verdict
@@ -183,6 +184,30 @@ def test_neutral_inertial_numbers():
     np.testing.assert_allclose(by_functions, neutral_inertial_numbers(BEADS), rtol=1e-13)
     for root in neutral_inertial_numbers(BEADS):
         assert abs(incompressible_criterion(BEADS, root).C) < 1e-13
+
+
+def test_a_window_of_well_posedness_narrower_than_the_scan_is_found():
+    """mu2 such that the least growth rate over I is barely below zero: two neutral numbers side by side."""
+
+    def least(mu2):
+        law = MuI(0.3, mu2, 0.3)
+        found = minimize_scalar(
+            lambda s: float(incompressible_criterion(law, np.exp(s)).growth),
+            bounds=(-4, 1), method="bounded", options={"xatol": 1e-10},
+        )  # fmt: skip
+        return found.fun, np.exp(found.x)
+
+    mu2 = brentq(lambda mu2: least(mu2)[0] + 1e-9, 0.31, 0.6, xtol=1e-14)
+    roots = neutral_inertial_numbers(MuI(0.3, mu2, 0.3))
+    assert len(roots) == 2
+    assert roots[0] < least(mu2)[1] < roots[1] < 1.005 * roots[0]
+    assert neutral_inertial_numbers(MuI(0.3, mu2 - 1e-6, 0.3)).size == 0
+
+
+def test_friction_above_one_is_beyond_the_incompressible_criterion():
+    steep = incompressible_criterion(MuI(1.1, 1.5, 0.3), np.array([1e-9, 0.3]))
+    assert steep.growth[0] == np.inf
+    assert not steep.well_posed[0]
 
 
 def test_the_incompressible_criterion_agrees_with_the_eigenvalues_with_its_clause():

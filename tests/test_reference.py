@@ -179,7 +179,7 @@ def test_bad_input_is_named(arguments, error, words):
         reference(*arguments)
 
 
-@pytest.mark.parametrize("n", [4, 5, 16, 33, 130, 131])
+@pytest.mark.parametrize("n", [4, 5, 16, 33, 129, 130, 131])
 @pytest.mark.parametrize("m", [1, 2])
 def test_fourier_derivatives_three_ways(n, m):
     grid = -np.pi + 2 * np.pi / n * np.arange(n)
@@ -196,6 +196,12 @@ def test_fourier_derivatives_three_ways(n, m):
     waves = np.exp(1j * xi[:, None] * grid)
     derivative = FOURIER[m](waves.real, 2 * np.pi / n) + 1j * FOURIER[m](waves.imag, 2 * np.pi / n)
     assert np.abs(derivative - FOURIER[m].multiplier(xi, 2 * np.pi / n)[:, None] * waves).max() < 1e-15 * n**3
+
+
+@pytest.mark.parametrize("times", [[1e9], [0.1, 1e9]])
+def test_a_time_that_would_take_for_ever_is_refused(times):
+    with pytest.raises(ValueError, match="10000000 steps"):
+        reference(Toy(1.5), times)
 
 
 def test_pi_of_the_independent_code():
