@@ -78,3 +78,11 @@ def test_the_exponent_of_the_drift(m):
     sign = "-" if m % 2 else "+"  # (i xi_2)^(2m+2) = (-1)^(m+1) xi_2^(2m+2)
     found = verdict(f"u_t = -i*u_x {sign} u_{'y' * order}")
     assert (found.exponent, found.coefficient, found.direction) == (1, pytest.approx(1), (1, 0))
+
+
+def test_growth_along_a_curve_of_more_terms_than_are_followed_is_not_denied():
+    """Growth xi_2 on xi_1 = -xi_2^3 - xi_2^2 - xi_2: three drifts, one within another. Computed growth raises doubt."""
+    bracket = "i*{0}_yyy - {0}_yy - i*{0}_y - i*{0}_x"
+    found = verdict(f"u_t = -w2 - i*u_y; w2 = {bracket.format('w')}; w = {bracket.format('u')}")
+    assert found.kind == "undecided"
+    assert "was computed" in found.reason
