@@ -207,3 +207,20 @@ def test_branches_that_meet_or_vanish_are_told_by_a_product():
     rate, meeting = directions._rate_and_meeting(pencil, np.array([1.0, 3.0]), np.zeros((2, 1)))
     np.testing.assert_allclose(rate, [[-1], [-2]])  # eigenvalues -1, -2, -5 and -9, -2, -5
     np.testing.assert_allclose(np.exp(meeting), [[1 * 4 * 3 * 1 * 2 * 5], [7 * 4 * 3 * 9 * 2 * 5]])
+
+
+def test_following_a_peak_goes_to_rounding_level_and_stops_where_nothing_moves():
+    seen = []
+
+    def hill(pencil, k, angle):
+        seen.append(angle.shape)
+        return -np.abs(angle - 0.3)
+
+    def follow(start):
+        seen.clear()
+        return directions._followed(None, np.ones(1), np.array([[start]]), 0.1, hill).item()
+
+    assert follow(0.3) == 0.3
+    assert len(seen) == 5
+    assert follow(0.2265433) == pytest.approx(0.3, abs=1e-15)
+    assert 20 < len(seen) <= 36
