@@ -82,10 +82,7 @@ def pencil(text, *, at=None, order="full", multiplier=None, **parameters):
             raise PDEError(
                 f"the multiplier does not know the derivative of order {m} that the equations contain"
             ) from None
-    try:
-        return exact.pencil(multiplier)
-    except ValueError as singular:  # the equations do not determine the unknowns
-        raise PDEError(str(singular)) from None
+    return exact.pencil(multiplier)
 
 
 def linearise(text, *, at=None, order="full", **parameters):
