@@ -32,7 +32,7 @@ from primer.granular import (
 )
 from primer.granular.dispersion import Delta, growth_rate
 from primer.granular.fastest import fastest
-from primer.granular.limits import quotient_maximum
+from primer.granular.limits import least_Delta, quotient_maximum
 from primer.granular.violations import cases, table
 
 BEADS, PACKING = GLASS_BEADS.friction, EXAMPLE_COMPACTION
@@ -287,6 +287,47 @@ def test_each_hypothesis_violated_alone():
     says = conditions(steep, BaseState(0.2, 0.55, 0.1))
     assert not says.b
     assert verdict(steep, BaseState(0.2, 0.55, 0.1)).kind == "ill-posed"
+
+
+def test_the_least_determinant_and_its_direction_against_a_scan():
+    law, scan = CIDR_BEADS, np.linspace(-1, 1, 20001)
+    seen = set()
+    for state in (BaseState(p, phi, I) for p in (0.05, 0.4, 1.5) for phi in (0.52, 0.57) for I in (1e-3, 0.1, 3.0)):
+        if state.p < law.p_max(state.phi, state.I):
+            c = coefficients(law, state)
+            for sign in (1, -1):
+                least, x = least_Delta(c, sign)
+                values = sign * Delta(c, scan)
+                assert least == pytest.approx(values.min(), rel=1e-5)
+                assert x == pytest.approx(scan[np.argmin(values)], abs=1e-3)
+                seen.add(round(float(x)) if abs(x) == 1 else 0)
+    assert seen == {-1, 0, 1}
+
+
+def test_friction_too_steep_grows_without_bound_where_the_determinant_vanishes():
+    """1 + B x = 0 at x = cos 2 theta = -1/B, for |B| >= 1."""
+    law, state = IncompressibleMuI(MuI(1.4, 1.9, 0.3)), BaseState(1.0, 0.55, 1e-3)
+    x, y = verdict(law, state).direction
+    assert x**2 - y**2 == pytest.approx(-1 / float(coefficients(law, state).B), rel=1e-9)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("a", "da", "b", "db", "p", "phi", "I"),
+    [(1.995, 3.646, 1.901, 5.25, 0.7638, 0.5295, 1.672)],
+)
+def test_long_waves_that_grow_where_short_ones_decay_set_the_bound(a, da, b, db, p, phi, I):
+    """A law of one's own: growth at a finite |xi| above the limit. Second route: the pencil, scanned over |xi|."""
+    law, state = Ansatz(lambda I: a, lambda I: da, lambda I: b, lambda I: db), BaseState(p, phi, I)
+    found = verdict(law, state)
+    assert (found.kind, found.unstable) == ("well-posed", True)
+    assert growth_limit(law, state) < 0
+    pencil, k = linearise(law, state), np.geomspace(1e-3, 1e3, 13)
+    for _ in range(4):
+        rates = max_growth(pencil, k).growth
+        best = np.argmax(rates)
+        k = np.geomspace(k[max(best - 1, 0)], k[min(best + 1, len(k) - 1)], 5)
+    assert found.bound == pytest.approx(rates.max(), rel=0.01)
 
 
 def test_ill_posed_growth_at_infinity_agrees_with_the_pencil():

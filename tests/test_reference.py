@@ -93,6 +93,12 @@ def test_times_may_come_in_any_order_and_more_than_once():
     assert np.abs(single.at(0.3)[0] - answer.at(0.3)[0][0]) <= single.error + answer.error[0]
 
 
+def test_two_times_may_come_in_either_order():
+    there, back = reference(Toy(1.5), [1.0, 2.0]), reference(Toy(1.5), [2.0, 1.0])
+    np.testing.assert_array_equal(there.u, back.u[::-1])
+    np.testing.assert_array_equal(back.t, [2.0, 1.0])
+
+
 def test_values_between_the_points_are_those_of_the_interpolant():
     answer = reference(Toy(1.5, 0.05), [1, 2])
     assert np.abs(answer.at(answer.x)[1] - answer.v).max() < 1e-14

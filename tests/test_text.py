@@ -238,6 +238,8 @@ def test_errors_show_the_place(text, problem, column):
         (";".join(f"{c}_t = {c}" for c in "abcdfg"), ";".join(f"{c}_t = {c}" for c in "abcdfgh")),
         ("u_t = " + "+".join(["u"] * 299), "u_t = u" + "+" + "+".join(["u"] * 299)),  # 599 symbols, 601
         ("u_t = " + "a" * 40 + "*u", "u_t = " + "a" * 41 + "*u"),
+        ("u_t = " + "(" * 39 + "u" + ")" * 39, "u_t = " + "(" * 40 + "u" + ")" * 40),  # two levels each, of 80
+        ("u_t = " + "-" * 78 + "u", "u_t = " + "-" * 79 + "u"),
     ],
 )
 def test_the_limits_are_where_they_are_said_to_be(allowed, refused):
