@@ -9,7 +9,9 @@ from multiprocessing import get_context
 import numpy as np
 import pytest
 
-from primer import Seed, Stop, Toy, blow_up_map, ftcs
+from primer import Seed, Stop, Toy, blow_up_map, ftcs, stable_dt
+from primer.study.maps import map_step
+from primer.study.stability import OVERSHOOT
 from primer.study.table import Table
 
 A, N = [0.3, 0.6, 1.5], [16, 80, 120]
@@ -87,6 +89,16 @@ def test_an_interrupted_sweep_goes_on_where_it_was(reference, tmp_path, monkeypa
     wider = blow_up_map([0.3, 0.45, 0.6, 1.5], N, **options)  # only the new base state is marched
     np.testing.assert_array_equal(wider.t_blow_up[[0, 2, 3]], reference.t_blow_up)
     assert [p.name for p in tmp_path.iterdir()] == ["map.csv"]
+
+
+def test_the_step_of_a_map_is_within_every_limit():
+    """``most`` on coarse grids; else 0.9 of h^2/4, where u < 0 (physics.md: the central difference at its largest)."""
+    assert map_step([0.5, 1.5], 16, 0.01) == 1e-3
+    assert map_step([0.5, 1.5], 300, 0.01) == pytest.approx(0.9 * (2 * math.pi / 300) ** 2 / 4)
+    stiff = map_step([0.5, 8.0], 200, 0.4)
+    assert stiff == pytest.approx(0.9 * stable_dt(Toy(0, 0.4), 200, 8.0 + OVERSHOOT))
+    assert stiff < 0.9 * (2 * math.pi / 200) ** 2 / 4
+    assert map_step([], 16, 0.01) == 1e-3
 
 
 def test_a_failed_write_leaves_the_table_as_it_was(tmp_path, monkeypatch):

@@ -14,6 +14,7 @@ NOISE = np.array([1e-6, 1e-4, 1e-2])
 def test_multipliers():
     k = np.arange(6.0)
     np.testing.assert_allclose(cut_off(0.1, 3)(k), [1, math.exp(0.1), math.exp(0.4), math.exp(0.9), 0, 0])
+    np.testing.assert_allclose(cut_off(0.0, 0.5)(k), [1, 0, 0, 0, 0, 0])
     top = fourth_derivative(0.3, 0.02)(np.linspace(0, 20, 100001)).max()
     assert top == pytest.approx(math.exp(0.3 / (4 * 0.02)), rel=1e-8)  # at k^2 = 1/(2 beta)
     assert np.isfinite(cut_off(1.0, 5)(np.arange(2000.0))).all()

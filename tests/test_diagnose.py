@@ -70,6 +70,11 @@ def test_a_blow_up_of_the_scheme_is_cured_by_a_smaller_step_and_no_other():
     assert {Kind.SCHEME, Kind.ILL_POSED} <= seen
 
 
+def test_the_reason_says_why_the_equations_are_well_posed():
+    assert "well posed, as the equations have no second derivative" in diagnose(Toy(1.5, 0.0), 40, 1e-3, 5.0).reason
+    assert "well posed, as u stays positive" in diagnose(Toy(1.5), 40, 1e-3, 5.0).reason
+
+
 @pytest.mark.parametrize("case", HARD_CASES, ids=lambda case: case.name)
 def test_hard_cases_end_as_they_must(case):
     run, found = case.march(), case.diagnose()

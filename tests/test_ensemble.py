@@ -50,7 +50,9 @@ def test_compiled_and_interpreted_loops_see_the_same_steps(a, eps, n, dt, every,
     for compiled in (True, False):
         with pytest.MonkeyPatch.context() as patch:
             patch.setattr(scheme, "_compiles", lambda problem, asked, c=compiled: c)
-            runs.append(ftcs(Toy(a, eps), n, dt, 400 * dt, every, (150 * dt,), seed, blow_up_at))
+            runs.append(
+                ftcs(Toy(a, eps), n, dt, 400 * dt, every, (0.0, 150 * dt, 151 * dt, 400 * dt), seed, blow_up_at)
+            )
     assert_same_run(*runs)
 
 
@@ -62,6 +64,62 @@ def test_a_look_ahead_is_not_late(monkeypatch):
         runs.append(ftcs(Toy(0.3, 0), 4, 1e-3, 2.0, 10_000, seed=Seed(1, 0.5, "v", -np.pi / 2)))
     assert_same_run(*runs)
     assert runs[0].t_first_negative > 0
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_a_look_promises_no_more_than_it_can_keep(seed):
+    """While |v| <= ceiling a step moves u by at most 2 r1 dt ceiling, with rounding twice that; Dist <= |u| + |v|.
+
+    So for as many steps as it is not looked again nothing can cross: not u = 0, not Dist = far. Nor does it look much
+    more often than it must, or miss a record or a snapshot.
+    """
+    from primer.schemes import kernel
+
+    look = getattr(kernel._look, "py_func", kernel._look)  # plain Python where the compiler is switched off
+    random = np.random.default_rng(seed)
+    n, step, every = 16, int(random.integers(1, 1000)), int(random.choice([7, 10**6]))
+    far, dt, r1 = 10 ** random.uniform(0, 3), 10 ** random.uniform(-5, -1), 10 ** random.uniform(-1, 1.5)
+    u_inf, u = random.normal(size=(2, n)) + random.uniform(-1, 3)
+    v = random.normal(size=n) * far * 10 ** random.uniform(-6, 0)
+    clock, shots = np.array([[0], [-1], [0], [0]]), np.zeros((3, 2, n, 1))
+    shot_steps = np.array([step + 3, step + 10**8])
+    records = np.zeros((2, 1000, 1)) if every == 7 else np.zeros((2, 1, 1))
+    again, ceiling = look(u, v, u_inf, 0, r1, dt, far, 1e-6 * far, step, every, clock, *records, shot_steps, shots)
+    dist = np.sqrt(((u - u_inf) ** 2 + v**2).max())
+    assert clock[:, 0].tolist() == [step, -1 if u.min() > 0 else step, int(dist > far), 0]
+    assert ceiling >= 2 * np.abs(v).max()
+    quiet = again - step - 1  # steps that are not looked at
+    moved = 2 * quiet * 2 * r1 * dt * ceiling
+    assert step < again <= min(step + 3, (step // every + 1) * every)
+    if quiet:
+        assert u.min() <= 0 or moved <= u.min()
+        assert np.abs(u - u_inf).max() + moved <= far / 2 * (1 + 1e-12)
+        assert ceiling <= far / 2
+    far_shots = np.array([step + 10**8])  # nothing asked for before: then it looks away as long as it can
+    clock = np.array([[0], [-1], [0], [0]])
+    again, _ = look(u, v, u_inf, 0, r1, dt, far, 1e-6 * far, step, 10**9, clock, *np.zeros((2, 1, 1)), far_shots, shots)
+    room = min(far / 2 - np.abs(u - u_inf).max(), u.min() if u.min() > 0 else np.inf)
+    moved = 2 * (again - step - 1) * 2 * r1 * dt * ceiling
+    assert moved <= max(room, 0)
+    if ceiling < far / 2 and room > 0 and again < step + 10**8:
+        assert moved > 0.7 * room - 8 * r1 * dt * ceiling
+
+
+def test_ctrl_c_in_the_compiled_loop_returns_what_was_recorded(monkeypatch):
+    from primer.schemes import block
+
+    monkeypatch.setattr(scheme, "_compiles", lambda problem, asked: True)
+    march = block.Block.march
+
+    def interrupted(self):
+        march(self)
+        self.clock[0] -= 3  # as if it had been stopped before the end
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(block.Block, "march", interrupted)
+    run = ftcs(Toy(1.5), 16, 1e-2, 1.0, 10)
+    assert (run.stop, run.t_stop) == (Stop.INTERRUPTED, 0.97)
+    assert len(run.t) == 11
 
 
 def test_other_problems_and_numbers_are_marched_one_by_one():

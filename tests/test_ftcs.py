@@ -57,6 +57,7 @@ def test_thirty_digits_agree_with_longdouble_to_its_precision():
     assert fine.final[0].dtype == object
     difference = np.abs(np.array(fine.final) - np.array(coarse.final)).astype(float).max()
     assert 0 < difference < 100 * np.finfo(np.longdouble).eps
+    np.testing.assert_allclose(fine.dist.astype(float), coarse.dist.astype(float), rtol=1e-15)
 
 
 @pytest.mark.slow

@@ -21,6 +21,7 @@ from primer.granular import (
     IncompressibleMuI,
     MuI,
 )
+from primer.granular.friction import as_friction
 from primer.granular.state import admit
 
 BEADS = GLASS_BEADS.friction
@@ -88,6 +89,22 @@ def test_the_ends_of_lemma_1():
     assert f.dbeta(0) == pytest.approx(2 / 7 * f.dmu(0), rel=1e-14)
     tail = 12 / 25 * (f.mu2 - f.mu1) * math.pi / math.sin(2 * math.pi / 5) * (1e30 / f.I0) ** -0.4
     assert f.alpha(1e30) == pytest.approx(2 * f.mu2 - tail, rel=1e-15)
+
+
+def test_derivatives_of_mu():
+    I, h = np.array([1e-3, 0.279, 5.0]), 1e-5
+    for f, slope in ((BEADS.mu, BEADS.dmu), (BEADS.dmu, BEADS.ddmu)):
+        assert slope(I) == pytest.approx((f(I * (1 + h)) - f(I * (1 - h))) / (2 * h * I), rel=1e-8)
+
+
+def test_any_object_with_mu_and_its_slope_is_a_friction_law():
+    class Bare:
+        mu, dmu = staticmethod(BEADS.mu), staticmethod(BEADS.dmu)
+
+    assert as_friction(BEADS) is BEADS
+    assert as_friction(Bare()).alpha(0.2) == pytest.approx(BEADS.alpha(0.2), rel=1e-13)
+    with pytest.raises(TypeError, match="friction must have the functions"):
+        as_friction(3)
 
 
 @pytest.mark.parametrize("law", LAWS, ids=lambda law: type(law).__name__)

@@ -5,6 +5,7 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
+from scipy.optimize import brentq, minimize_scalar
 
 from primer import max_growth
 from primer.analysis.verdict import verdict as general_verdict
@@ -31,7 +32,7 @@ from primer.granular import (
 )
 from primer.granular.dispersion import Delta, growth_rate
 from primer.granular.fastest import fastest
-from primer.granular.limits import quotient_maximum
+from primer.granular.limits import least_Delta, quotient_maximum
 from primer.granular.violations import cases, table
 
 BEADS, PACKING = GLASS_BEADS.friction, EXAMPLE_COMPACTION
@@ -185,6 +186,30 @@ def test_neutral_inertial_numbers():
         assert abs(incompressible_criterion(BEADS, root).C) < 1e-13
 
 
+def test_a_window_of_well_posedness_narrower_than_the_scan_is_found():
+    """mu2 such that the least growth rate over I is barely below zero: two neutral numbers side by side."""
+
+    def least(mu2):
+        law = MuI(0.3, mu2, 0.3)
+        found = minimize_scalar(
+            lambda s: float(incompressible_criterion(law, np.exp(s)).growth),
+            bounds=(-4, 1), method="bounded", options={"xatol": 1e-10},
+        )  # fmt: skip
+        return found.fun, np.exp(found.x)
+
+    mu2 = brentq(lambda mu2: least(mu2)[0] + 1e-9, 0.31, 0.6, xtol=1e-14)
+    roots = neutral_inertial_numbers(MuI(0.3, mu2, 0.3))
+    assert len(roots) == 2
+    assert roots[0] < least(mu2)[1] < roots[1] < 1.005 * roots[0]
+    assert neutral_inertial_numbers(MuI(0.3, mu2 - 1e-6, 0.3)).size == 0
+
+
+def test_friction_above_one_is_beyond_the_incompressible_criterion():
+    steep = incompressible_criterion(MuI(1.1, 1.5, 0.3), np.array([1e-9, 0.3]))
+    assert steep.growth[0] == np.inf
+    assert not steep.well_posed[0]
+
+
 def test_the_incompressible_criterion_agrees_with_the_eigenvalues_with_its_clause():
     steep = MuI(0.01, 0.9, 0.3)  # n > 1/2 for a range of I, where C can be positive
     for friction in (BEADS, steep, MuI(0.001, 0.2, 1.0), Friction(lambda I: I**0.9 / 2, lambda I: 0.45 * I**-0.1)):
@@ -262,6 +287,47 @@ def test_each_hypothesis_violated_alone():
     says = conditions(steep, BaseState(0.2, 0.55, 0.1))
     assert not says.b
     assert verdict(steep, BaseState(0.2, 0.55, 0.1)).kind == "ill-posed"
+
+
+def test_the_least_determinant_and_its_direction_against_a_scan():
+    law, scan = CIDR_BEADS, np.linspace(-1, 1, 20001)
+    seen = set()
+    for state in (BaseState(p, phi, I) for p in (0.05, 0.4, 1.5) for phi in (0.52, 0.57) for I in (1e-3, 0.1, 3.0)):
+        if state.p < law.p_max(state.phi, state.I):
+            c = coefficients(law, state)
+            for sign in (1, -1):
+                least, x = least_Delta(c, sign)
+                values = sign * Delta(c, scan)
+                assert least == pytest.approx(values.min(), rel=1e-5)
+                assert x == pytest.approx(scan[np.argmin(values)], abs=1e-3)
+                seen.add(round(float(x)) if abs(x) == 1 else 0)
+    assert seen == {-1, 0, 1}
+
+
+def test_friction_too_steep_grows_without_bound_where_the_determinant_vanishes():
+    """1 + B x = 0 at x = cos 2 theta = -1/B, for |B| >= 1."""
+    law, state = IncompressibleMuI(MuI(1.4, 1.9, 0.3)), BaseState(1.0, 0.55, 1e-3)
+    x, y = verdict(law, state).direction
+    assert x**2 - y**2 == pytest.approx(-1 / float(coefficients(law, state).B), rel=1e-9)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("a", "da", "b", "db", "p", "phi", "I"),
+    [(1.995, 3.646, 1.901, 5.25, 0.7638, 0.5295, 1.672)],
+)
+def test_long_waves_that_grow_where_short_ones_decay_set_the_bound(a, da, b, db, p, phi, I):
+    """A law of one's own: growth at a finite |xi| above the limit. Second route: the pencil, scanned over |xi|."""
+    law, state = Ansatz(lambda I: a, lambda I: da, lambda I: b, lambda I: db), BaseState(p, phi, I)
+    found = verdict(law, state)
+    assert (found.kind, found.unstable) == ("well-posed", True)
+    assert growth_limit(law, state) < 0
+    pencil, k = linearise(law, state), np.geomspace(1e-3, 1e3, 13)
+    for _ in range(4):
+        rates = max_growth(pencil, k).growth
+        best = np.argmax(rates)
+        k = np.geomspace(k[max(best - 1, 0)], k[min(best + 1, len(k) - 1)], 5)
+    assert found.bound == pytest.approx(rates.max(), rel=0.01)
 
 
 def test_ill_posed_growth_at_infinity_agrees_with_the_pencil():

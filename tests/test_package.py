@@ -5,6 +5,8 @@ import re
 import shlex
 import subprocess
 import sys
+from dataclasses import is_dataclass
+from importlib import import_module
 from pathlib import Path
 
 import pytest
@@ -67,6 +69,16 @@ def test_imports_only_point_down(path):
 def test_public_names_exist_and_say_what_they_are(name):
     assert getattr(primer, name).__doc__
     assert name in dir(primer)
+
+
+def test_dataclasses_are_frozen():
+    """And every module can be imported by itself."""
+    seen = set()
+    for path in MODULES:
+        name = ".".join(path.relative_to(ROOT).with_suffix("").parts).removesuffix(".__init__")
+        seen |= {x for x in vars(import_module(name)).values() if isinstance(x, type) and is_dataclass(x)}
+    assert len(seen) > 40
+    assert [x.__name__ for x in seen if not x.__dataclass_params__.frozen] == []
 
 
 def test_unknown_names_are_refused():

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 import sympy
 
+import primer.analysis.directions as directions
 from primer import Pencil, growth, max_growth
 
 
@@ -185,3 +186,41 @@ def test_sympy_matrices_are_symbols():
     assert growth(pseudo, 3.0) == pytest.approx(-0.9)
     with pytest.raises(ValueError, match="S must be a matrix in xi, or in xi_1 and xi_2, alone, got symbols a, xi"):
         Pencil(sympy.Matrix([[sympy.Symbol("a") * xi]]), sympy.eye(1))
+
+
+def test_local_maxima_of_a_periodic_scan():
+    angle = np.array([[0.0, 0.1, 0.3, 0.6, 1.0, 1.5, 2.1, 2.8]])
+    f = np.array([[1.0, 2.0, 5.0, 4.0, 3.0, 2.0, 7.0, 1.5]])
+    peaks, spacing = directions._highest(angle, f, np.pi, 4)
+    assert peaks.tolist() == [[2.1, 0.3]]  # the highest first, and no more than there are
+    np.testing.assert_allclose(spacing, [[0.7, 0.3]])
+    round_the_corner, spacing = directions._highest(angle, -np.abs(angle - 3.1), np.pi, 1)
+    assert round_the_corner.tolist() == [[2.8]]
+    np.testing.assert_allclose(spacing, [[0.7]])
+    across, spacing = directions._highest(angle, -angle, np.pi, 1)
+    assert across.tolist() == [[0.0]]
+    np.testing.assert_allclose(spacing, [[np.pi - 2.8]])
+
+
+def test_branches_that_meet_or_vanish_are_told_by_a_product():
+    pencil = Pencil(lambda xi: [[xi[0] ** 2, 0, 0], [0, 2 + 0 * xi[0], 0], [0, 0, 5]], np.eye(3), dim=2)
+    rate, meeting = directions._rate_and_meeting(pencil, np.array([1.0, 3.0]), np.zeros((2, 1)))
+    np.testing.assert_allclose(rate, [[-1], [-2]])  # eigenvalues -1, -2, -5 and -9, -2, -5
+    np.testing.assert_allclose(np.exp(meeting), [[1 * 4 * 3 * 1 * 2 * 5], [7 * 4 * 3 * 9 * 2 * 5]])
+
+
+def test_following_a_peak_goes_to_rounding_level_and_stops_where_nothing_moves():
+    seen = []
+
+    def hill(pencil, k, angle):
+        seen.append(angle.shape)
+        return -np.abs(angle - 0.3)
+
+    def follow(start):
+        seen.clear()
+        return directions._followed(None, np.ones(1), np.array([[start]]), 0.1, hill).item()
+
+    assert follow(0.3) == 0.3
+    assert len(seen) == 5
+    assert follow(0.2265433) == pytest.approx(0.3, abs=1e-15)
+    assert 20 < len(seen) <= 36

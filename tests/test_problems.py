@@ -155,6 +155,7 @@ def test_scaled_modes_vanish_at_first_and_explode_later():
     assert np.all(np.diff(heat.scaled_amplitude(xi, 0.1, 4)) > 0)
     np.testing.assert_array_equal(heat.scaled_amplitude(-xi, 0.1, 3.5), heat.scaled_amplitude(xi, 0.1, 3.5))
     assert heat.scaled_amplitude(100, 1, 2) == math.inf  # no warning: that it explodes is the point
+    np.testing.assert_allclose(heat.scaled_amplitude(2.0, 0.5, 0), np.exp(2))
     assert heat.mode(100, [-0.01, 0, 0.01], 1).tolist() == [-math.inf, 0, math.inf]
     sup = np.abs(heat.mode(10.0, np.linspace(0, 7, 100001), 0.1)).max() * 10.0**-4
     assert heat.scaled_amplitude(10.0, 0.1, 4) == pytest.approx(sup, rel=1e-6)

@@ -146,6 +146,10 @@ def test_conservative_systems_are_known_as_such():
     assert [b.law.coefficient for b in branches({**P, (1, 0): 1})] == [-0.5, -0.5]
 
 
+def test_no_polynomial_has_no_branches():
+    assert branches({}) == []
+
+
 def test_multiple_branches():
     (twice,) = branches({(2, 0): 1, (1, 2): 2, (0, 4): 1})  # (lambda + k^2)^2
     assert (twice.multiplicity, twice.exponent, twice.coefficient) == (2, 2, -1)

@@ -93,6 +93,12 @@ def test_times_may_come_in_any_order_and_more_than_once():
     assert np.abs(single.at(0.3)[0] - answer.at(0.3)[0][0]) <= single.error + answer.error[0]
 
 
+def test_two_times_may_come_in_either_order():
+    there, back = reference(Toy(1.5), [1.0, 2.0]), reference(Toy(1.5), [2.0, 1.0])
+    np.testing.assert_array_equal(there.u, back.u[::-1])
+    np.testing.assert_array_equal(back.t, [2.0, 1.0])
+
+
 def test_values_between_the_points_are_those_of_the_interpolant():
     answer = reference(Toy(1.5, 0.05), [1, 2])
     assert np.abs(answer.at(answer.x)[1] - answer.v).max() < 1e-14
@@ -179,7 +185,7 @@ def test_bad_input_is_named(arguments, error, words):
         reference(*arguments)
 
 
-@pytest.mark.parametrize("n", [4, 5, 16, 33, 130, 131])
+@pytest.mark.parametrize("n", [4, 5, 16, 33, 129, 130, 131])
 @pytest.mark.parametrize("m", [1, 2])
 def test_fourier_derivatives_three_ways(n, m):
     grid = -np.pi + 2 * np.pi / n * np.arange(n)
@@ -196,6 +202,12 @@ def test_fourier_derivatives_three_ways(n, m):
     waves = np.exp(1j * xi[:, None] * grid)
     derivative = FOURIER[m](waves.real, 2 * np.pi / n) + 1j * FOURIER[m](waves.imag, 2 * np.pi / n)
     assert np.abs(derivative - FOURIER[m].multiplier(xi, 2 * np.pi / n)[:, None] * waves).max() < 1e-15 * n**3
+
+
+@pytest.mark.parametrize("times", [[1e9], [0.1, 1e9]])
+def test_a_time_that_would_take_for_ever_is_refused(times):
+    with pytest.raises(ValueError, match="10000000 steps"):
+        reference(Toy(1.5), times)
 
 
 def test_pi_of_the_independent_code():

@@ -34,6 +34,14 @@ def test_seeds_lie_on_a_line_of_slope_one_over_growth():
     np.testing.assert_allclose(found.times, line, atol=8.7 / 4)
 
 
+def test_two_blow_ups_make_a_line_and_one_does_not():
+    two = seed_ladder(Toy(-2.0), 64, 1e-3, 20.0, [1e-4, 1e-8])
+    assert np.isfinite(two.times).all()
+    assert two.slope == pytest.approx(np.diff(two.times)[0] / math.log(1e4))
+    with pytest.raises(ValueError, match="must make at least two runs blow up by t_end = 20, got 1"):
+        seed_ladder(Toy(-2.0), 64, 1e-3, 20.0, [1e-4])
+
+
 def test_each_precision_buys_time():
     runs = precision_ladder(Toy(-1.0), 48, 4e-3, 40.0, ("float32", "float64", "longdouble"))
     times = np.array([blow_up_time(run) for run in runs.values()])

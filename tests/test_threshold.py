@@ -12,6 +12,7 @@ from primer.schemes.discrete import discrete_steady
 from primer.schemes.grid import Grid
 from primer.study import spectrum
 from primer.study.spectrum import Parity, depth, fastest, growth, jacobian
+from primer.study.stability import frozen_dt
 from primer.study.threshold import unstable
 
 
@@ -73,6 +74,28 @@ def test_structured_search_finds_what_the_dense_one_does(monkeypatch):
         assert (a > 0) == (b > 0)
         if b > 0:
             assert a == pytest.approx(b, rel=1e-6)
+
+
+def test_the_structured_search_starts_near_what_it_seeks():
+    """The fastest sawtooth, a packet near k = n/4, the wave first to grow at x = 0, the stiffest mode at x = -pi."""
+    toy, n, dt = Toy(-0.5, 0.02), 150, 1e-3
+    lam = np.linalg.eigvals(jacobian(toy, n))
+    sawtooth = spectrum._shifts(toy, n, 0.0)[0]
+    assert sawtooth == pytest.approx(lam[np.argmax(lam.real)], rel=1e-2)
+    assert abs(sawtooth - lam[np.argmax(lam.real)]) < abs(sawtooth - depth(toy, n))  # nearer than the frozen one
+    toy, n, dt = Toy(1.2, 0.01), 120, 1e-2
+    lam, h = np.linalg.eigvals(jacobian(toy, n)), Grid(n).h
+    _, packet, first, stiffest = spectrum._shifts(toy, n, dt)
+    assert np.abs(lam - packet).min() < 0.02 * abs(packet)
+    assert stiffest == pytest.approx(lam.real.min(), rel=0.02)
+    u = toy.a - h / math.sin(h)
+    xi = np.linspace(0, math.pi / h, 20001)
+    frozen = np.linalg.eigvals(toy.symbol(xi, u, multiplier=Grid(n).multiplier))
+    limit = frozen_dt(h, u, toy.eps)  # at this step one wave is neutral, and the others decay
+    waves = frozen[frozen.imag > 1]
+    neutral = waves[np.argmax(np.abs(1 + limit * waves))]
+    assert abs(1 + limit * neutral) == pytest.approx(1, abs=1e-3)
+    assert abs(first - 1e-3j - neutral) < 1e-4 * abs(first)
 
 
 def test_content_is_the_expansion_in_eigenvectors():

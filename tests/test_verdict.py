@@ -215,6 +215,14 @@ def test_systems_without_an_answer(text, word):
         verdict(text)
 
 
+@pytest.mark.parametrize("size", ["1e-60", "1e60"])
+def test_the_size_of_an_equation_does_not_matter(size):
+    found = verdict(f"{size}*u_t = {size}*v_x; v_t = {size}*u - v", at={})
+    plain = verdict("u_t = v_x; v_t = w - v; w = 1e-60*u" if size == "1e-60" else "u_t = v_x; v_t = w - v; w = 1e60*u")
+    assert (found.kind, found.exponent, found.coefficient) == (plain.kind, plain.exponent, plain.coefficient)
+    assert found.kind == ILL
+
+
 def test_a_verdict_takes_moments():
     verdict("u_t = u_xx")  # imports
     for name in ("toy, u > 0", "toy, u < 0", "toy, u = 0", "Turing", "shallow water", "wave"):

@@ -103,9 +103,12 @@ class _Search:
             s = _highest(law, np.array([-10, -7, -5.3, -3, 3.1, 4.9, 7, 10]), self.best())
             self.add(self.law(F, r, value(s)), slope, r)
         for tau in self.special(F, r, self.best()):
-            if depth and (slope is None or tau != 0):
-                moved = shifted_by(F, tau, -r, 2)
-                self.near(moved, r, depth - 1, tau if slope is None else slope)
+            if slope is None or tau != 0:
+                moved, towards = shifted_by(F, tau, -r, 2), tau if slope is None else slope
+                if depth:
+                    self.near(moved, r, depth - 1, towards)
+                else:
+                    self.add(self.law(moved, r, 0), towards, r)
 
     def near(self, F, r, depth, slope):
         """t = 0 itself, and t = tau k^{-r'} with r' > r."""

@@ -14,6 +14,7 @@ from primer.analysis.determinant import determinant
 CANCELLED = 1e-12  # relative size below which a coefficient of the determinant is only rounding
 EPS = np.finfo(float).eps
 TINY = 1e-150  # the square of its inverse is still a number
+LEAST = 2.0**-300  # the smallest factor by which a row or column is divided: the cube of its inverse is still a number
 LOST = 1e50  # an iterate this large is on its way to infinity
 STEPS = 60  # Ehrlich-Aberth converges cubically; graded starting values need a few dozen steps at the very most
 
@@ -119,10 +120,11 @@ def _scaled(A):
     for _ in range(3):
         for axis, factors in ((-1, rows), (-2, columns)):
             largest = size.max(axis=axis)
-            factor = np.exp2(-np.round(np.log2(np.where(largest > 0, largest, 1)) / (2 if axis == -1 else 1)))
+            largest = np.where(largest > 0, np.maximum(largest, LEAST), 1)
+            factor = np.exp2(-np.round(np.log2(largest) / (2 if axis == -1 else 1)))
             factors *= factor
             size = size * np.expand_dims(factor, axis)
-    rows, columns = (np.clip(factors, 2.0**-300, 2.0**300) for factors in (rows, columns))
+    rows, columns = (np.clip(factors, LEAST, 1 / LEAST) for factors in (rows, columns))
     return rows[..., :, None] * columns[..., None, :] * A, rows, columns
 
 

@@ -11,7 +11,7 @@ import sympy as sp
 from primer.analysis.text import PDEError, parse, split_name
 
 ORDER = 12  # the highest derivative
-OPERATIONS = 3000  # the longest expression that the derivative of a bracket may grow to
+OPERATIONS = 400  # the longest expression that the derivative of a bracket may grow to: at 1000 sympy can take minutes
 BITS = 4000  # the largest constant, in bits
 POWER = 1000  # the largest exponent
 VARIABLES = ("x", "y", "t")

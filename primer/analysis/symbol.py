@@ -13,6 +13,7 @@ import numpy as np
 from primer.analysis.determinant import determinant
 from primer.analysis.pencil import Pencil
 from primer.analysis.roots import DIGITS, ZERO
+from primer.analysis.text import PDEError
 
 
 @dataclass(frozen=True)
@@ -59,7 +60,11 @@ class Symbol:
             if n:
                 E[column, place[c, n - 1]].append((1, 0, 0))
                 S[column, column].append((-1, 0, 0))
-        return Pencil(_Matrix(S, width, self.dim, multiplier), _Matrix(E, width, self.dim, multiplier), self.dim)
+        matrices = (_Matrix(sums, width, self.dim, multiplier) for sums in (S, E))
+        try:
+            return Pencil(*matrices, self.dim)
+        except ValueError as singular:  # the equations do not determine the unknowns
+            raise PDEError(str(singular)) from None
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,14 +1,17 @@
 """A PDE as text: linearise, freeze, and look for exponentials (the three steps of section A2.1)."""
 
+from contextlib import suppress
+
 import mpmath as mp
 import numpy as np
 import sympy as sp
+from sympy.matrices.exceptions import NonInvertibleMatrixError
 
 from primer.analysis.linear import read
 from primer.analysis.roots import DIGITS
 from primer.analysis.symbol import Symbol
 from primer.analysis.text import PDEError
-from primer.analysis.values import checked, evaluated
+from primer.analysis.values import checked, evaluated, substituted
 from primer.checks import shown
 
 
@@ -110,7 +113,7 @@ def linearise(text, *, at=None, order="full", **parameters):
     for r, slopes in enumerate(system.slopes):
         row = {name: {} for name in system.unknowns}
         for (name, power), slope in sorted(slopes.items(), key=lambda item: -sum(item[0][1][1:])):
-            coefficient = slope.subs(values)
+            coefficient = substituted(slope, values)
             if not (order == "maximal" and _is_lower(power, row[name])) and coefficient != 0:
                 row[name][power] = coefficient
                 n, *orders = power
@@ -118,8 +121,11 @@ def linearise(text, *, at=None, order="full", **parameters):
                 entry = parts.setdefault(n, sp.zeros(size))
                 entry[r, system.unknowns.index(name)] += coefficient * wave
     S, E = (parts.get(n, sp.zeros(size)) for n in (0, 1))
-    if max(parts, default=0) == 1 and (sp.eye(size) == E or (size <= 3 and E.det() != 0)):
-        return -S if sp.eye(size) == E else (E.inv() * -S).applyfunc(_tidied)
+    if max(parts, default=0) == 1 and sp.eye(size) == E:
+        return -S
+    if max(parts, default=0) == 1 and size <= 3:
+        with suppress(NonInvertibleMatrixError):
+            return (E.inv() * -S).applyfunc(_tidied)
     return sum((lam**n * part for n, part in parts.items()), sp.zeros(size))
 
 

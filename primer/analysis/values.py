@@ -10,6 +10,7 @@ import sympy as sp
 from primer.analysis.text import PDEError, split_name
 from primer.checks import shown
 
+BITS = 100_000  # the largest exact power, in bits: 3^(10^9) would take for ever
 LARGEST = 1e6  # the largest argument of a function: the exponential of this has half a million digits before its point
 
 
@@ -49,6 +50,25 @@ def _exact(name, value):
         raise ValueError(f"{name} must be a finite number, got {shown(value)}")
     real, imaginary = (sp.Rational(repr(part)) for part in (number.real, number.imag))
     return real + sp.I * imaginary
+
+
+def substituted(expression, values):
+    """The expression with these values for their names, exactly; names without a value stay.
+
+    Raises
+    ------
+    PDEError    for a power with too many digits
+    """
+    if expression.is_Symbol:
+        return values.get(expression.name, expression)
+    if not any(symbol.name in values for symbol in expression.free_symbols):
+        return expression
+    args = [substituted(a, values) for a in expression.args]
+    if expression.is_Pow and args[1].is_Rational:
+        bits = max((abs(a.p) * a.q).bit_length() for a in [*args[0].atoms(sp.Rational), sp.S.One])
+        if abs(args[1]) * bits > BITS:
+            raise PDEError(f"the base state makes {_short(expression)} a power that is too large to write out")
+    return expression.func(*args)
 
 
 def evaluated(expression, values):

@@ -1,0 +1,69 @@
+"""Which tests guard which line: a pytest plugin that watches, and the choice made from what it saw."""
+
+import time
+from pathlib import Path
+
+from mutants import ROOT
+
+#: Compiled lines are not seen by the coverage measurement: they are guarded by whatever runs their caller.
+CALLER = {"kernel.py": "block.py", "lines_kernel.py": "lines.py"}
+
+HOUSE = "test_dataclasses_are_frozen"  # what it sees happened when the modules were imported
+
+
+class Watch:
+    """A pytest plugin: what each test runs, and how long it takes. Tests that fail are left out."""
+
+    def __init__(self):
+        import coverage
+
+        self.cov, self.seconds, self.failed = coverage.Coverage(data_file=None, source=["primer"]), {}, set()
+        self.cov.start()
+
+    def pytest_runtest_logstart(self, nodeid):
+        self.cov.switch_context(nodeid)
+        self.seconds[nodeid] = time.perf_counter()
+
+    def pytest_runtest_logreport(self, report):
+        if report.failed:
+            self.failed.add(report.nodeid)
+
+    def pytest_runtest_logfinish(self, nodeid):
+        self.seconds[nodeid] = time.perf_counter() - self.seconds[nodeid]
+        self.cov.switch_context("")
+
+    def known(self, before):
+        """``before`` with what was seen in place of what it says of the same tests."""
+        self.cov.stop()
+        lines, data = before["lines"], self.cov.get_data()
+        for tests in (tests for of_file in lines.values() for tests in of_file.values()):
+            tests[:] = [test for test in tests if test not in self.seconds]
+        for path in data.measured_files():
+            of_file = lines.setdefault(Path(path).relative_to(ROOT).as_posix(), {})
+            for line, tests in data.contexts_by_lineno(path).items():
+                of_file.setdefault(str(line), []).extend(test for test in tests if test and test not in self.failed)
+        return {"seconds": before["seconds"] | self.seconds, "lines": lines}
+
+
+def guards(known, file, first, last, cap):
+    """The tests to run, in three helpings: a few of those of the changed lines, the rest of them, those of the file.
+
+    For compiled lines, which are not seen, they are those of the caller; for constants alone those of the folder.
+    """
+    folder, name = file.rsplit("/", 1)
+    near = known["lines"].get(f"{folder}/{CALLER.get(name, name)}", {})
+    if sum(map(bool, near.values())) < 3:
+        files = [lines for other, lines in known["lines"].items() if other.startswith(folder)]
+        near = {f"{n} {k}": tests for n, lines in enumerate(files) for k, tests in lines.items()}
+    elif name in CALLER:
+        near = {f"caller {k}": tests for k, tests in near.items()}
+    by_file = {test for tests in near.values() for test in tests}
+    by_file |= {test for test in known["seconds"] if test.endswith(HOUSE)}
+    by_line = {test for k in range(first, last + 1) for test in near.get(str(k), ())}
+    chosen, spent = [], 0.0
+    for test in sorted(by_line, key=known["seconds"].get) + sorted(by_file - by_line, key=known["seconds"].get):
+        spent += known["seconds"][test]
+        if spent <= cap or not chosen:
+            chosen.append(test)
+    few = min(20, len(by_line))
+    return chosen[:few], chosen[few : len(by_line)], chosen[max(few, len(by_line)) :]
