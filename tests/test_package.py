@@ -27,6 +27,7 @@ FLOORS = [
     "granular",
     "study",
     "scenes",
+    "exercises",
     "view",
     "lab",
     "__main__",

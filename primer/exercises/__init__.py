@@ -1,0 +1,8 @@
+"""The exercises of the course: ``ask_03_1(seed)`` asks, ``check_03_1(answer, seed)`` says right or gives a hint.
+
+Another seed gives another student other numbers; without one everybody has those of the notebook.
+"""
+
+from primer.exercises.grid_dependence import ask_03_1, ask_03_2, ask_03_3, check_03_1, check_03_2, check_03_3
+
+__all__ = ["ask_03_1", "ask_03_2", "ask_03_3", "check_03_1", "check_03_2", "check_03_3"]

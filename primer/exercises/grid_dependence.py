@@ -1,0 +1,103 @@
+"""Exercises of notebook 03, grid dependence."""
+
+import math
+
+from primer.exercises.answers import check, variant
+from primer.problems.toy import Toy
+from primer.study.spectrum import growth
+
+
+def _first(seed):
+    return variant("03_1", seed, n=(48, 36, 40, 60, 72, 80))
+
+
+def ask_03_1(seed=0):
+    """The question: where Dist comes to rest."""
+    return f"With a = 1.5 on N = {_first(seed)['n']} points: where does Dist come to rest?"
+
+
+def check_03_1(answer, seed=0):
+    """Whether ``answer`` is h/sin h - 1 with h = 2 pi/N, to one per cent; a ``Feedback``.
+
+    Central differences of sin x are (sin h/h) cos x, so that their steady state is a - (h/sin h) cos x.
+    """
+    h = 2 * math.pi / _first(seed)["n"]
+    return check(
+        answer,
+        h / math.sin(h) - 1,
+        "the scheme has a steady state of its own, and stays that far from the equations'.",
+        {
+            "that is Dist for the equations. What is the steady state of the central differences?": 0.0,
+            "that is h. How does the error of a central difference depend on it?": h,
+            "that is h squared: the right power, but not the factor. Expand sin h.": h**2,
+            "the sign: Dist is a distance.": 1 - h / math.sin(h),
+        },
+        "put u = a - c cos x, v = 0 into the scheme: u[j+1] - u[j-1] = 2h sin x[j] fixes c.",
+    )
+
+
+def _second(seed):
+    return variant("03_2", seed, a=(0.5, 0.2, 0.7, 0.6, 0.4), eps=(0.02, 0.01, 0.005, 0.04))
+
+
+def ask_03_2(seed=0):
+    """The question: the frozen threshold."""
+    given = _second(seed)
+    return (
+        f"With a = {given['a']} and eps = {given['eps']}: from which N on does the sawtooth, frozen at x = 0, grow? "
+        "(A real number.)"
+    )
+
+
+def check_03_2(answer, seed=0):
+    """Whether ``answer`` is pi/sqrt(eps (1 - a)), to one per cent; a ``Feedback``.
+
+    On the grid xi^2 becomes (4/h^2) sin^2(xi h/2), at most 4/h^2 = N^2/pi^2; at u* = a - 1 growth needs
+    -(1 + eps u* N^2/pi^2) > 0, eq. (toy-mat).
+    """
+    given = _second(seed)
+    a, eps = given["a"], given["eps"]
+    return check(
+        answer,
+        math.pi / math.sqrt(eps * (1 - a)),
+        "and grid_threshold gives the true one, later, since the wave has to fit into the stretch where u < 0.",
+        {
+            "the least u of the steady state is a - 1, not a.": math.pi / math.sqrt(eps * a),
+            "that is N squared over pi squared.": 1 / (eps * (1 - a)),
+            "that is where xi^2 of the equations would grow at the cut-off xi = N/2; a grid sees 4/h^2 instead.": 2
+            / math.sqrt(eps * (1 - a)),
+        },
+        "the first difference does not see the sawtooth, the second makes it -4/h^2: when is -(1 + eps u* 4/h^2) > 0?",
+    )
+
+
+def _third(seed):
+    return variant("03_3", seed, n=(100, 80, 120, 150), digits=(3, 2, 5, 8))
+
+
+def ask_03_3(seed=0):
+    """The question: what more digits buy."""
+    given = _third(seed)
+    rate = growth(Toy(0.5), given["n"])
+    return (
+        f"With a = 0.5 on N = {given['n']} points the fastest mode grows like exp({rate:.4g} t). How much later does "
+        f"it blow up from round-off in arithmetic with {given['digits']} more decimal digits?"
+    )
+
+
+def check_03_3(answer, seed=0):
+    """Whether ``answer`` is digits ln(10)/growth, to two per cent; a ``Feedback``."""
+    given = _third(seed)
+    rate = growth(Toy(0.5), given["n"])
+    return check(
+        answer,
+        given["digits"] * math.log(10) / rate,
+        "digits buy time in proportion, while the growth rises with the square of N: refining always wins.",
+        {
+            "growth is exp(rate t), not 10^(rate t).": given["digits"] / rate,
+            "that is for one digit.": math.log(10) / rate,
+            "divide by the rate: fast growth leaves little time.": given["digits"] * math.log(10) * rate,
+        },
+        "the seed is 10^-digits times smaller. How long does exp(rate t) take to make up for that?",
+        rtol=0.02,
+    )

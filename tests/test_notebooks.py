@@ -1,0 +1,114 @@
+"""Guards the notebooks' form: executed, whole, short cells, captions; that their outputs are true is nbval's part."""
+
+import re
+from pathlib import Path
+
+import nbformat
+import pytest
+
+COURSE = Path(__file__).parents[1] / "notebooks"
+NOTEBOOKS = sorted(path for path in COURSE.rglob("*.ipynb") if ".ipynb_checkpoints" not in path.parts)
+LESSONS = [path for path in NOTEBOOKS if path.parent == COURSE]
+HEADINGS = ("Predict first", "Explore", "What you should have seen", "Exercises", "Summary", "References")
+
+
+def read(path):
+    return nbformat.read(path, as_version=4)
+
+
+def code(notebook):
+    return [cell for cell in notebook.cells if cell.cell_type == "code"]
+
+
+def prose(notebook):
+    return "\n".join(cell.source for cell in notebook.cells if cell.cell_type == "markdown")
+
+
+def outputs(notebook):
+    return [output for cell in code(notebook) for output in cell.outputs]
+
+
+def test_there_is_a_course():
+    assert LESSONS
+    assert all(re.fullmatch(r"\d\d_[a-z_]+\.ipynb", path.name) for path in LESSONS)
+
+
+@pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.name)
+def test_is_executed_from_top_to_bottom(path):
+    notebook = read(path)
+    nbformat.validate(notebook)
+    assert [cell.execution_count for cell in code(notebook)] == list(range(1, len(code(notebook)) + 1))
+    for output in outputs(notebook):
+        assert output.output_type != "error"
+        assert output.get("name") != "stderr", output.text
+        text = output.get("text", "") or output.get("data", {}).get("text/plain", "")
+        assert not re.search(r"0x[0-9a-f]{6,}|/home/|/root/|/tmp/|Warning", text), text
+    assert all(not {"nbval-skip", "raises-exception"} & set(cell.metadata.get("tags", ())) for cell in notebook.cells)
+    assert "state" in notebook.metadata.get("widgets", {}).get(
+        "application/vnd.jupyter.widget-state+json", {"state": 0}
+    )
+
+
+@pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.name)
+def test_cells_are_short_and_plain(path):
+    for cell in code(read(path)):
+        lines = [line for line in cell.source.splitlines() if line.strip() and "import" not in line.split()]
+        assert len(lines) <= 5, cell.source
+        assert not re.search(r"^\s*(def|class|for|while|global|%|!)\b", cell.source, flags=re.M), cell.source
+        assert not cell.source.rstrip().endswith(";")
+
+
+@pytest.mark.parametrize("path", LESSONS, ids=lambda path: path.name)
+def test_has_its_parts_in_order(path):
+    text = prose(read(path))
+    assert re.match(rf"# {int(path.name[:2])}\. ", text)
+    assert "**You will be able to**" in text
+    assert re.search(r"\*\*Time:\*\* \d+ minutes", text)
+    places = [text.find(f"\n## {heading}") for heading in HEADINGS]
+    assert min(places) > 0, dict(zip(HEADINGS, places, strict=True))
+    assert places == sorted(places)
+
+
+@pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.name)
+def test_every_picture_has_a_caption_and_words_for_those_who_do_not_see_it(path):
+    cells = read(path).cells
+    for cell, following in zip(cells, [*cells[1:], None], strict=True):
+        for output in cell.get("outputs", ()):
+            if "image/png" in output.get("data", {}):
+                assert output.metadata["image/png"]["alt"]
+                assert following.source.lstrip().startswith("*"), cell.source
+
+
+@pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.name)
+def test_links_lead_somewhere(path):
+    for target in re.findall(r"\]\(([^)\s]+)\)", prose(read(path))):
+        if not target.startswith(("http://", "https://", "#")):
+            assert (path.parent / target.partition("#")[0]).exists(), target
+
+
+def test_students_copy_keeps_their_work(tmp_path):
+    from primer.lab import copy_course
+
+    folder = tmp_path / "my course é"
+    copied, kept = copy_course(folder)
+    assert len(copied) == len(NOTEBOOKS)
+    assert not kept
+    mine = folder / copied[0]
+    mine.write_text("my work", encoding="utf-8")
+    (folder / copied[-1]).with_suffix(".txt").write_text("notes", encoding="utf-8")
+    again, kept = copy_course(folder)
+    assert (again, kept) == ([], copied)
+    assert mine.read_text(encoding="utf-8") == "my work"
+    assert not list(folder.rglob(".copy-*"))
+
+
+def test_a_folder_that_cannot_be(tmp_path, capsys):
+    from primer.__main__ import main
+
+    (tmp_path / "file").write_text("", encoding="utf-8")
+    assert main(["lab", "--copy-only", str(tmp_path / "file" / "course")]) == 2
+    said = capsys.readouterr()
+    assert not said.out
+    assert re.fullmatch(r"primer: FOLDER must be a folder that can be written, got '.*' \(.*\)\n", said.err)
+    assert main(["lab", "--copy-only", str(tmp_path / "course")]) == 0
+    assert "notebooks copied" in capsys.readouterr().out
