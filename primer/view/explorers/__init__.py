@@ -5,5 +5,7 @@ functions, and controls. ``BaseStateExplorer()`` at the end of a notebook cell s
 """
 
 from primer.view.explorers.base_state import BaseStateExplorer
+from primer.view.explorers.pde import PDEExplorer
+from primer.view.explorers.rheology import RheologyExplorer
 
-__all__ = ["BaseStateExplorer"]
+__all__ = ["BaseStateExplorer", "PDEExplorer", "RheologyExplorer"]
