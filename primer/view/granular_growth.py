@@ -2,6 +2,7 @@
 
 import numpy as np
 from matplotlib.colors import BoundaryNorm, ListedColormap
+from matplotlib.patches import Polygon
 
 from primer.granular.dispersion import growth_rate
 from primer.granular.fastest import fastest
@@ -36,11 +37,19 @@ def draw_polar(ax, c, k, decades, name, color, ls):
     rate = growth_rate(c, k, np.cos(2 * theta)) / c.D
     up = np.where(rate > 0, np.log10(1 + np.maximum(rate, 0)), 0)
     down = np.log10(1 + np.maximum(-rate, 0))
-    ax.fill(theta, up, color=color, alpha=0.55, label="grows")
+    petals = Polygon(np.column_stack([theta, up]), color=color, alpha=0.55, label="grows")
+    petals.set_transform(ax.transData)
+    ax.add_artist(petals)  # ax.fill would look, slowly, for limits that are set below
     ax.plot(theta, up, color=color, lw=1.4)
     ax.plot(theta, down, color=STEADY, ls=":", lw=1.1, label="decays")
     ax.set_title(name, fontsize=10.5, loc="center")
-    ax.set(rmax=decades, rticks=np.arange(1, decades + 1))
+    frame_polar(ax, decades)
+
+
+def frame_polar(ax, decades):
+    """Rings at powers of ten, and the names of the principal axes."""
+    step = -(-decades // 5)
+    ax.set(rmax=decades, rticks=np.arange(step, decades + 1, step))
     ax.set_yticklabels([f"$10^{{{int(v)}}}$" for v in ax.get_yticks()], fontsize=7)
     ax.set_thetagrids([0, 90, 180, 270], ["major", "minor", "", ""], fontsize=8)
     ax.set_rlabel_position(22)

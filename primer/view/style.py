@@ -4,6 +4,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 import matplotlib.style
+import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
@@ -26,11 +27,19 @@ def styled():
         yield
 
 
-def new_figure(rows=1, columns=2, width=9.0, height=3.4, title=None, **options):
-    """(figure, axes): a matplotlib figure of its own, outside pyplot, with a grid of axes (sizes in inches)."""
+def new_figure(rows=1, columns=2, width=9.0, height=3.4, title=None, per_subplot_kw=None, **options):
+    """(figure, axes): a matplotlib figure of its own, outside pyplot, with a grid of axes (sizes in inches).
+
+    ``per_subplot_kw`` are options of single axes, by their number: {0: {"projection": "polar"}}.
+    """
     figure = Figure(figsize=(width, height))
     FigureCanvasAgg(figure)
-    axes = figure.subplots(rows, columns, **options)
+    if per_subplot_kw:
+        places = np.arange(rows * columns).reshape(rows, columns)
+        named = figure.subplot_mosaic(places.tolist(), per_subplot_kw=per_subplot_kw, **options)
+        axes = np.array([named[place] for place in places.flat]).reshape(places.shape)
+    else:
+        axes = figure.subplots(rows, columns, **options)
     if title:
         figure.suptitle(title, x=0.01, ha="left", fontsize=11)
     return figure, axes

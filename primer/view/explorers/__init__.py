@@ -6,6 +6,8 @@ functions, and controls. ``BaseStateExplorer()`` at the end of a notebook cell s
 
 from primer.view.explorers.base_state import BaseStateExplorer
 from primer.view.explorers.heat import HeatExplorer
+from primer.view.explorers.pde import PDEExplorer
 from primer.view.explorers.refinement import RefinementExplorer
+from primer.view.explorers.rheology import RheologyExplorer
 
-__all__ = ["BaseStateExplorer", "HeatExplorer", "RefinementExplorer"]
+__all__ = ["BaseStateExplorer", "HeatExplorer", "PDEExplorer", "RefinementExplorer", "RheologyExplorer"]

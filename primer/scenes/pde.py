@@ -1,0 +1,182 @@
+"""The scene of any PDE: type it, freeze it at a base state, and see what its short waves do, on a grid too."""
+
+import re
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+
+from primer.analysis.symbol import Symbol
+from primer.analysis.symbolic import linearise, symbol
+from primer.analysis.text import PDEError
+from primer.analysis.verdict import Kind, Verdict, verdict
+from primer.checks import integer, shown
+from primer.schemes.grid import Grid
+
+MAX_N = 1024
+XI = np.geomspace(1e-2, 1e3, 121)
+TOY = "u_t = v_x; v_t = eps*u*v_xx + u_x - v - sin(x)"
+_ANGLES = np.arange(32) * np.pi / 16  # of the wavevector, in two space variables
+_NOISE = 1e-11  # a real part so small, relative to its eigenvalue, is rounding
+_WAVES = ("lambda", "xi", "xi_1", "xi_2")
+
+
+@dataclass(frozen=True, eq=False)
+class PDEAnswer:
+    """What :func:`pde` found.
+
+    Attributes
+    ----------
+    n              points on 2 pi, so the grid's shortest wave has xi = n/2
+    has_lambda     whether ``matrix`` is M of M q = 0, with lambda inside, and not A of lambda q = A q
+    matrix         rows of texts: the symbol, as :func:`primer.linearise` gives it
+    xi, rate       (k,) wavenumbers |xi| and max Re lambda, in two space variables the largest of 32 directions and that
+                   of the verdict
+    grid_xi, grid_rate    the same as the grid sees it, up to its cut-off n/2
+    found          the :class:`primer.Verdict`
+    verdict        the same in words, with what the grid makes of it
+    """
+
+    n: int
+    has_lambda: bool
+    matrix: tuple
+    xi: np.ndarray
+    rate: np.ndarray
+    grid_xi: np.ndarray
+    grid_rate: np.ndarray
+    found: Verdict
+    verdict: str
+
+
+def pde(pde=TOY, at="u=-0.5 v_xx=0.3 eps=0.01", order="full", n=64):
+    """Is a PDE linearly ill-posed, frozen at a base state, and does a grid of spacing 2 pi/n show it?
+
+    Parameters
+    ----------
+    pde      equations as :func:`primer.linearise` reads them, such as "u_t = -u_xx", parted by ";"
+    at       base-state values and parameters parted by blanks: "u=-0.5 eps=0.01"
+    order    "full", or "maximal": the highest derivatives alone
+    n        4 to 1024; derivatives above the second are products of the central differences of first and second order
+
+    Raises
+    ------
+    TypeError, ValueError    in one sentence, for equations that cannot be read, for base-state values that are missing
+                             or belong to nothing, and for n outside its range
+    """
+    for name, value in (("pde", pde), ("at", at)):
+        if not isinstance(value, str):
+            raise TypeError(f"{name} must be a text, got {shown(value)}")
+    if order not in ("full", "maximal"):
+        raise ValueError(f"order must be full or maximal, got {shown(order)}")
+    n = integer("n", n, least=4, most=MAX_N)
+    try:
+        known = _known(pde, at, order)
+    except PDEError as error:
+        raise ValueError(f"pde or at cannot be used: {_one_line(error)}") from None
+    grid_xi = np.geomspace(XI[0], n / 2, 121 if known.symbol.dim == 1 else 41)
+    grid_rate, finer = (_growth(known.symbol, grid_xi * m / n, known.found, m) for m in (n, 2 * n))
+    text = f"{_judged(known.found, pde, order)} {_seen(known.found, n, np.nanmax(grid_rate), np.nanmax(finer))}"
+    return PDEAnswer(n, known.has_lambda, known.matrix, XI, known.rate, grid_xi, grid_rate, known.found, text)
+
+
+@dataclass(frozen=True, eq=False)
+class _Known:
+    """What does not depend on the grid."""
+
+    symbol: Symbol
+    has_lambda: bool
+    matrix: tuple
+    rate: np.ndarray
+    found: Verdict
+
+
+@lru_cache(maxsize=16)
+def _known(pde, at, order):
+    values = read_values(at)
+    matrix = linearise(pde, at=values, order=order)
+    missing = sorted(s.name for s in matrix.free_symbols if s.name not in _WAVES)
+    if missing:
+        raise ValueError(f"at must also give a value to {', '.join(missing)}, as in {missing[0]}=1, got {shown(at)}")
+    exact = symbol(pde, at=values, order=order)
+    found = verdict(exact)
+    has_lambda = any(s.name == "lambda" for s in matrix.free_symbols)
+    texts = tuple(tuple(_written(entry) for entry in row) for row in matrix.tolist())
+    return _Known(exact, has_lambda, texts, _growth(exact, XI, found), found)
+
+
+def read_values(text):
+    """Name -> number from "u=-0.5 eps=0.01".
+
+    Raises
+    ------
+    ValueError    if it is not of this form, or gives a name twice
+    """
+    values = {}
+    for part in re.sub(r"\s*=\s*", "=", text).split():
+        name, equals, value = part.partition("=")
+        try:
+            number = float(value) if equals and name else None
+        except ValueError:
+            number = None
+        if number is None or name in values:
+            raise ValueError(f"at must be NAME=NUMBER parted by blanks, each name once, got {shown(part)}")
+        values[name] = number
+    return values
+
+
+def _growth(exact, k, found, n=None):
+    """max Re lambda at |xi| = k over both signs, or over directions; nan where some unknown is undetermined."""
+    pencil = exact.pencil(_multiplier(Grid(n)) if n else None)
+    if exact.dim == 1:
+        xi = np.multiply.outer(k, [1.0, -1.0])
+    else:
+        angle = np.append(_ANGLES, np.arctan2(*found.direction[::-1]) if found.direction else 0.0)
+        xi = np.stack([np.multiply.outer(k, np.cos(angle)), np.multiply.outer(k, np.sin(angle))])
+    lam = pencil.eigenvalues(xi)
+    real = np.where(np.abs(lam.real) <= _NOISE * np.abs(lam), 0, lam.real)
+    best = np.where(np.isnan(lam), -np.inf, real).max(axis=(-2, -1))
+    return np.where(np.isinf(best), np.nan, best)
+
+
+def _multiplier(grid):
+    """Of the m-th derivative: (second difference)^(m/2), times a first difference if m is odd."""
+    return lambda xi, m: grid.multiplier(xi, 2) ** (m // 2) * (grid.multiplier(xi, 1) if m % 2 else 1)
+
+
+def _written(entry):
+    import sympy
+
+    text = str(entry.xreplace({sympy.I: sympy.Symbol("i")}))
+    for old, new in (("**", "^"), ("*", " "), ("lambda", "λ"), ("xi", "ξ")):
+        text = re.sub(rf"\b{old}(?=\b|_)", new, text) if old.isalpha() else text.replace(old, new)
+    return text
+
+
+def _one_line(error):
+    """The message, with the place in the text in words in place of a caret."""
+    problem, *place = str(error).split("\n")
+    if len(place) != 2:
+        return problem
+    rest = place[0][place[1].index("^") :].strip()
+    return f"{problem}, at {shown(rest)}" if rest else f"{problem}, at the end"
+
+
+def _judged(found, pde, order):
+    reason = found.reason.replace("lambda", "λ").replace("|xi|", "|ξ|").replace("->", "→")
+    if not reason.startswith("Re "):
+        reason = reason[0].lower() + reason[1:]
+    kind = {Kind.ILL_POSED: "Ill posed", Kind.UNDECIDED: "Undecided", Kind.WELL_POSED: "Well posed"}[found.kind]
+    if found.kind is Kind.WELL_POSED and found.unstable:
+        kind = "Well posed but unstable"
+    alone = ", with the highest derivatives alone" if order == "maximal" else ""
+    text = " ".join(pde.split())
+    return f"{kind} ({text if len(text) <= 60 else text[:57] + '...'}{alone}): {reason}"
+
+
+def _seen(found, n, rate, finer):
+    grid = f"a grid of spacing 2π/{n}"
+    if found.kind is not Kind.ILL_POSED:
+        return f"On {grid} no wave grows faster than e^({rate:.3g} t)." if rate > 0 else f"On {grid} nothing grows."
+    if not rate > 0:
+        return f"On {grid} nothing grows: it is too coarse to show it."
+    return f"On {grid} the fastest wave grows like e^({rate:.3g} t), on one twice as fine like e^({finer:.3g} t)."
