@@ -74,9 +74,7 @@ def _options(arguments):
     parser = argparse.ArgumentParser(prog="regenerate.py", description=__doc__, allow_abbrev=False)
     parser.add_argument("names", nargs="*", metavar="NAME", help="figures to make (default: all; see --list)")
     parser.add_argument("--list", action="store_true", help="list the figures and what they show, and stop")
-    parser.add_argument(
-        "--out", type=Path, default=HERE, metavar="DIR", help="folder of the pictures (default: figures/)"
-    )
+    parser.add_argument("--out", default=str(HERE), metavar="DIR", help="folder of the pictures (default: figures/)")
     parser.add_argument(
         "--check", action="store_true", help="write nothing: recompute and compare with the stored JSON"
     )
@@ -95,6 +93,9 @@ def _options(arguments):
     for ending in options.formats:
         if ending not in FORMATS:
             parser.error(f"--formats must be some of {','.join(FORMATS)}, got {ending!r}")
+    if not options.out or "\0" in options.out:
+        parser.error(f"--out must be the name of a folder, got {options.out!r}")
+    options.out = Path(options.out)
     if not (options.check or options.list):
         try:
             options.out.mkdir(parents=True, exist_ok=True)

@@ -14,9 +14,9 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from primer.checks import real, shown
-from primer.granular.compaction import Compaction
-from primer.granular.friction import as_friction
+from primer.checks import function, real, shown
+from primer.granular.compaction import Compaction, has_C
+from primer.granular.friction import as_friction, numbers
 
 
 class _Incompressible:
@@ -26,6 +26,7 @@ class _Incompressible:
 
     def f(self, p, phi, I):
         """0: the flow is isochoric."""
+        p, phi, I = numbers(p, phi, I)
         return np.zeros(np.broadcast_shapes(np.shape(p), np.shape(phi), np.shape(I)))[()]
 
     Y_phi = f_p = f_phi = f_I = f
@@ -47,14 +48,17 @@ class Coulomb(_Incompressible):
 
     def Y(self, p, phi, I):
         """mu p."""
+        p, phi, I = numbers(p, phi, I)
         return self.mu * p + self.f(p, phi, I)
 
     def Y_p(self, p, phi, I):
         """mu."""
+        p, phi, I = numbers(p, phi, I)
         return self.mu + self.f(p, phi, I)
 
     def Y_I(self, p, phi, I):
         """0."""
+        p, phi, I = numbers(p, phi, I)
         return self.f(p, phi, I)
 
 
@@ -74,14 +78,17 @@ class IncompressibleMuI(_Incompressible):
 
     def Y(self, p, phi, I):
         """mu(I) p."""
+        p, phi, I = numbers(p, phi, I)
         return self.friction.mu(I) * p + self.f(p, phi, I)
 
     def Y_p(self, p, phi, I):
         """mu(I)."""
+        p, phi, I = numbers(p, phi, I)
         return self.friction.mu(I) + self.f(p, phi, I)
 
     def Y_I(self, p, phi, I):
         """mu'(I) p."""
+        p, phi, I = numbers(p, phi, I)
         return self.friction.dmu(I) * p + self.f(p, phi, I)
 
 
@@ -92,42 +99,52 @@ class _Compressible:
 
     def Y(self, p, phi, I):
         """a(I) p - p^2/C(phi)."""
+        p, phi, I = numbers(p, phi, I)
         return p * (self.a(I) - p / self._C(phi))
 
     def Y_p(self, p, phi, I):
         """a(I) - 2 p/C(phi)."""
+        p, phi, I = numbers(p, phi, I)
         return self.a(I) - 2 * p / self._C(phi)
 
     def Y_phi(self, p, phi, I):
         """p^2 C'(phi)/C(phi)^2."""
+        p, phi, I = numbers(p, phi, I)
         return (p / self._C(phi)) ** 2 * self.compaction.dC(phi) + 0 * np.asarray(I)
 
     def Y_I(self, p, phi, I):
         """a'(I) p."""
-        return self.da(I) * p + 0 * np.asarray(phi)
+        p, phi, I = numbers(p, phi, I)
+        return self.da(I) * p + 0 * self._C(phi)
 
     def f(self, p, phi, I):
         """b(I) - 2 p/C(phi)."""
+        p, phi, I = numbers(p, phi, I)
         return self.b(I) - 2 * p / self._C(phi)
 
     def f_p(self, p, phi, I):
         """-2/C(phi)."""
+        p, phi, I = numbers(p, phi, I)
         return -2 / self._C(phi) + 0 * np.asarray(p) * np.asarray(I)
 
     def f_phi(self, p, phi, I):
         """2 p C'(phi)/C(phi)^2."""
+        p, phi, I = numbers(p, phi, I)
         return 2 * p * self.compaction.dC(phi) / self._C(phi) ** 2 + 0 * np.asarray(I)
 
     def f_I(self, p, phi, I):
         """b'(I)."""
-        return self.db(I) + 0 * np.asarray(p) * np.asarray(phi)
+        p, phi, I = numbers(p, phi, I)
+        return self.db(I) + 0 * np.asarray(p) * self._C(phi)
 
     def p_max(self, phi, I):
         """a(I) C(phi): Y > 0 for 0 < p < p_max."""
+        _, phi, I = numbers(0.0, phi, I)
         return self.a(I) * self.compaction.C(phi)
 
     def p_critical(self, phi, I):
         """b(I) C(phi)/2: there f = 0, and the material shears without a change of volume."""
+        _, phi, I = numbers(0.0, phi, I)
         return self.b(I) * self.compaction.C(phi) / 2
 
     def _C(self, phi):
@@ -138,12 +155,6 @@ class _Compressible:
                 f"got {shown(phi)}"
             )
         return C
-
-    def _check_compaction(self):
-        if not isinstance(self.compaction, Compaction) and not (
-            hasattr(self.compaction, "C") and hasattr(self.compaction, "dC")
-        ):
-            raise TypeError(f"compaction must be a Compaction(phi0, eps, C0), got {shown(self.compaction)}")
 
 
 @dataclass(frozen=True)
@@ -163,7 +174,7 @@ class CSSM(_Compressible):
 
     def __post_init__(self):
         object.__setattr__(self, "mu", real("mu", self.mu, above=0))
-        self._check_compaction()
+        has_C(self.compaction)
 
     def a(self, I):
         """2 mu."""
@@ -195,7 +206,7 @@ class CIDR(_Compressible):
 
     def __post_init__(self):
         object.__setattr__(self, "friction", as_friction(self.friction))
-        self._check_compaction()
+        has_C(self.compaction)
 
     def a(self, I):
         """alpha(I)."""
@@ -233,4 +244,6 @@ class Ansatz(_Compressible):
     compaction: Compaction
 
     def __post_init__(self):
-        self._check_compaction()
+        for name in ("a", "da", "b", "db"):
+            function(name, getattr(self, name), "I")
+        has_C(self.compaction)

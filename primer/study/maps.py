@@ -6,9 +6,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from primer.checks import integer, real, real_array, shown
+from primer.checks import real, real_array, sequence, shown
 from primer.problems.toy import Toy
 from primer.schemes.ensemble import ftcs_ensemble
+from primer.schemes.grid import grids
+from primer.schemes.record import plan
 from primer.schemes.run import Seed, Stop
 from primer.study.stability import OVERSHOOT, stable_dt
 from primer.study.table import Table
@@ -81,11 +83,13 @@ def blow_up_map(
     TypeError, ValueError    in one sentence, for an argument that is not allowed
     """
     a = _without_repeats("a_values", [real("a_values", x) for x in real_array("a_values", a_values).ravel().tolist()])
-    n = _without_repeats("n_values", [integer("n_values", x, least=4) for x in np.ravel(n_values).tolist()])
+    n = _without_repeats("n_values", grids("n_values", _listed(n_values)))
     eps, t_end, dt = Toy(0, eps).eps, real("t_end", t_end, least=0), real("dt", dt, above=0)
     seed = real("seed", seed, above=0)
     if executor is not None and not isinstance(executor, Executor):
         raise TypeError(f"executor must be a concurrent.futures.Executor or None, got {shown(executor)}")
+    for k in n:  # all is known to fit before anything is marched
+        plan(k, dt, t_end, 10**9, (), None, 1e3, np.float64, None).refuse_if_large(fields=2, members=len(a))
     steps = [map_step(a, k, eps, dt) for k in n]
     store = Table(table, {"eps": eps, "t_end": t_end, "seed": seed}, ("n", "dt", "a"), ("t_blow_up", "t_seeded"))
     columns = []
@@ -107,6 +111,10 @@ def map_step(a_values, n, eps, most=1e-3):
     """
     top = max(max(a_values, default=0.0) + OVERSHOOT, 0.0)
     return min(most, 0.9 * (math.pi / n) ** 2, 0.9 * stable_dt(Toy(0, eps), n, top))
+
+
+def _listed(values):
+    return sequence("n_values", values.ravel().tolist() if isinstance(values, np.ndarray) else values, "grids")
 
 
 def _without_repeats(name, values):

@@ -17,7 +17,8 @@ import math
 
 import numpy as np
 
-from primer.checks import real, real_array
+from primer.checks import instance, real, real_array, shown
+from primer.problems.toy import Toy
 from primer.schemes.discrete import amplification
 from primer.schemes.grid import Grid
 
@@ -58,7 +59,10 @@ def stable_dt(toy, n, u=None):
     u         the values of u that count; left out, those of the solution for eps = 0: u = a - m(t) cos x passes
               through a -+ 1.1910 before it settles to a -+ 1
     """
+    instance("toy", toy, Toy)
     values = real_array("u", u if u is not None else toy.a + np.array([-OVERSHOOT, OVERSHOOT]))
+    if not values.size:
+        raise ValueError(f"u must hold at least one number, got {shown(u)}")
     # Both bounds are monotonic in u: the least and the greatest u decide.
     return float(np.min(frozen_dt(Grid(n).h, np.array([values.min(), values.max()]), toy.eps)))
 
@@ -69,6 +73,7 @@ def amplification_over_modes(toy, n, dt, u):
     A value over 1 that goes down to 1 and below as dt is halved is numerical instability; one whose logarithm per unit
     time tends to Re lam > 0 is ill-posedness.
     """
+    instance("toy", toy, Toy)
     grid = Grid(n)
     k = np.arange(grid.n // 2 + 1)
     symbol = toy.symbol(k.astype(float), np.float64(real("u", u)), multiplier=grid.multiplier)

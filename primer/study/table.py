@@ -18,11 +18,12 @@ class Table:
 
     Raises
     ------
-    ValueError    if the file is of other settings or columns, or is not such a table
+    ValueError    if the file is of other settings or columns, or is not such a table, or cannot be written
+    TypeError     if path is no path
     """
 
     def __init__(self, path, settings, keys, values):
-        self.path, self.rows, self._keys = (None if path is None else Path(path)), {}, len(keys)
+        self.path, self.rows, self._keys = (None if path is None else _usable(path)), {}, len(keys)
         self._head = "# " + " ".join(f"{name}={value!r}" for name, value in settings.items())
         self._names = [*keys, *values]
         if self.path is not None and self.path.exists():
@@ -56,3 +57,19 @@ class Table:
                 os.unlink(file.name)
                 raise
         os.replace(file.name, self.path)
+
+
+def _usable(path):
+    """The path, or one sentence that says why no file can be kept there: before the sweep, not after its first hour."""
+    if not isinstance(path, (str, os.PathLike)) or not isinstance(os.fspath(path), str):
+        raise TypeError(f"table must be the path of a CSV file or None, got {shown(path)}")
+    if not path or Path(path).is_dir():
+        raise ValueError(f"table must be the path of a CSV file, got the folder {shown(str(path))}")
+    path = Path(path)
+    try:
+        with NamedTemporaryFile(dir=path.parent, prefix=f".{path.name}-"):
+            return path
+    except OSError as error:
+        raise ValueError(
+            f"table must be a file in a folder that can be written, got {shown(str(path))} ({error.strerror})"
+        ) from None
