@@ -3,6 +3,7 @@
 import argparse
 import json
 import os
+import signal
 import sys
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from importlib import import_module
@@ -19,6 +20,8 @@ NAMES = sorted(path.stem for path in HERE.glob("*.py") if path.stem not in ("reg
 
 
 def main(arguments=None):
+    if hasattr(sys.stdout, "reconfigure"):
+        sys.stdout.reconfigure(errors="backslashreplace")  # a folder's name may have letters the terminal has not
     options = _options(arguments)
     if options.list:
         for name in NAMES:
@@ -26,13 +29,16 @@ def main(arguments=None):
         return 0
     job, tell = (_check, "checked") if options.check else (_make, "written")
     problems = []
-    with ProcessPoolExecutor(min(options.jobs, len(options.names))) as pool:
+    with ProcessPoolExecutor(min(options.jobs, len(options.names)), initializer=_give_up_on_ctrl_c) as pool:
         waiting = {pool.submit(job, name, options.out, options.formats): name for name in options.names}
         try:
             with tqdm(total=len(waiting), unit="figure", disable=None) as bar:
                 for done in as_completed(waiting):
                     name = waiting[done]
-                    problems += [f"{name}: {sentence}" for sentence in done.result()]
+                    if isinstance(error := done.exception(), Exception):  # a full disk, a worker that died
+                        problems.append(f"{name}: not {tell} ({type(error).__name__}: {error})")
+                    else:
+                        problems += [f"{name}: {sentence}" for sentence in done.result()]
                     bar.set_postfix_str(name)
                     bar.update()
         except KeyboardInterrupt:
@@ -44,6 +50,11 @@ def main(arguments=None):
     good = len(options.names) - len({sentence.split(":")[0] for sentence in problems})
     print(f"{good} of {len(options.names)} figures {tell} in {options.out}")
     return 1 if problems else 0
+
+
+def _give_up_on_ctrl_c():
+    """In a worker: a sweep takes Ctrl-C for the wish to see what there is, but half a sweep makes no figure."""
+    signal.signal(signal.SIGINT, lambda *_: sys.exit(130))
 
 
 def _make(name, out, formats):
@@ -67,7 +78,11 @@ def _check(name, out, formats):
     except (OSError, ValueError) as error:
         return [f"no stored numbers to compare with ({error})"]
     script = import_module(name)
-    return sidecar.drift(stored, script.numbers(script.compute()))
+    fresh = script.numbers(script.compute())
+    try:
+        return sidecar.drift(stored, fresh)
+    except (AttributeError, KeyError, TypeError):
+        return [f"no stored numbers to compare with ({name}.json holds no claims)"]
 
 
 def _options(arguments):

@@ -11,6 +11,8 @@ from primer.granular.command import add_command as add_granular
 
 def main(arguments=None):
     """Run one command; 0 if it did what was asked, 2 (and the reason on stderr) if the input cannot be used."""
+    if hasattr(sys.stdout, "reconfigure"):
+        sys.stdout.reconfigure(errors="backslashreplace")  # a terminal without the degree sign gets \xb0
     options = _parser().parse_args(arguments)
     try:
         print(options.command(options))

@@ -63,6 +63,7 @@ def ftcs_ensemble(
                 march.result()
         except KeyboardInterrupt:
             interrupted = True
-            for block in blocks:
+        finally:
+            for block in blocks:  # else the pool would wait for those still marching
                 block.halted = True
     return tuple(run for block in blocks for run in block.runs(interrupted))

@@ -1,7 +1,8 @@
 """Which base states blow up on which grids: measured, cell by cell, in a table that a sweep can resume."""
 
 import math
-from concurrent.futures import Executor, as_completed
+import warnings
+from concurrent.futures import BrokenExecutor, Executor, as_completed
 from dataclasses import dataclass
 
 import numpy as np
@@ -69,7 +70,7 @@ def blow_up_map(
     seed                  amplitude of the seed
     table                 a CSV file that keeps the cells; those it holds already are not marched again. It is written
                           after each grid, so that after Ctrl-C, which returns the map as far as it has come, or a
-                          crash, the same call goes on
+                          crash, the same call goes on. A grid whose worker fails is named in a warning
     executor              any ``concurrent.futures.Executor``, such as a process pool or
                           ``dask.distributed.Client.get_executor()``; left out, all cores of this machine
     progress              whether to show a progress bar, on a terminal
@@ -132,20 +133,31 @@ def _march(columns, executor, store, progress):
             store.add(rows)
             bar.update(len(rows))
 
-        waiting = []
+        waiting, lost = {}, {}
         try:
             if executor is None:  # each column takes all cores
                 for column in columns:
                     keep(_column(*column))
             else:
-                waiting = [executor.submit(_column, *column) for column in columns]
+                for column in columns:
+                    try:
+                        waiting[executor.submit(_column, *column)] = column
+                    except BrokenExecutor as error:  # a worker has died already
+                        lost[column[1]] = error
                 for done in as_completed(waiting):
-                    keep(done.result())
+                    _, n, *_ = waiting[done]
+                    if (error := done.exception()) is None or isinstance(error, KeyboardInterrupt):
+                        keep(done.result())
+                    else:  # one grid's worker died, or ran out of memory: the others are worth keeping
+                        lost[n] = error
         except KeyboardInterrupt:
             bar.set_postfix_str("interrupted")
         finally:
             for future in waiting:
                 future.cancel()
+    if lost:
+        why = "; ".join(f"n = {n} ({type(error).__name__}: {error})" for n, error in sorted(lost.items()))
+        warnings.warn(f"not marched, and not a number in the map: {why}", RuntimeWarning, stacklevel=3)
 
 
 def _column(a, n, eps, dt, t_end, seed):
