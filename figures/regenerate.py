@@ -6,6 +6,7 @@ Movies are made on request, that is by name: as mp4 where ffmpeg is found, else 
 import argparse
 import json
 import os
+import signal
 import sys
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from importlib import import_module
@@ -24,6 +25,8 @@ NAMES = sorted({path.stem for path in HERE.glob("*.py")} - {"regenerate", "sidec
 
 
 def main(arguments=None):
+    if hasattr(sys.stdout, "reconfigure"):
+        sys.stdout.reconfigure(errors="backslashreplace")  # a folder's name may have letters the terminal has not
     options = _options(arguments)
     if options.list:
         for name in NAMES + ON_REQUEST:
@@ -32,13 +35,16 @@ def main(arguments=None):
         return 0
     job, tell = (_check, "checked") if options.check else (_make, "written")
     problems = []
-    with ProcessPoolExecutor(min(options.jobs, len(options.names))) as pool:
+    with ProcessPoolExecutor(min(options.jobs, len(options.names)), initializer=_give_up_on_ctrl_c) as pool:
         waiting = {pool.submit(job, name, options.out, options.formats): name for name in options.names}
         try:
             with tqdm(total=len(waiting), unit="figure", disable=None) as bar:
                 for done in as_completed(waiting):
                     name = waiting[done]
-                    problems += [f"{name}: {sentence}" for sentence in done.result()]
+                    if isinstance(error := done.exception(), Exception):  # a full disk, a worker that died
+                        problems.append(f"{name}: not {tell} ({type(error).__name__}: {error})")
+                    else:
+                        problems += [f"{name}: {sentence}" for sentence in done.result()]
                     bar.set_postfix_str(name)
                     bar.update()
         except KeyboardInterrupt:
@@ -50,6 +56,11 @@ def main(arguments=None):
     good = len(options.names) - len({sentence.split(":")[0] for sentence in problems})
     print(f"{good} of {len(options.names)} figures {tell} in {options.out}")
     return 1 if problems else 0
+
+
+def _give_up_on_ctrl_c():
+    """In a worker: a sweep takes Ctrl-C for the wish to see what there is, but half a sweep makes no figure."""
+    signal.signal(signal.SIGINT, lambda *_: sys.exit(130))
 
 
 def _make(name, out, formats):
@@ -75,7 +86,11 @@ def _check(name, out, formats):
     except (OSError, ValueError) as error:
         return [f"no stored numbers to compare with ({error})"]
     script = import_module(name)
-    return sidecar.drift(stored, script.numbers(script.compute()))
+    fresh = script.numbers(script.compute())
+    try:
+        return sidecar.drift(stored, fresh)
+    except (AttributeError, KeyError, TypeError):
+        return [f"no stored numbers to compare with ({name}.json holds no claims)"]
 
 
 def _options(arguments):
@@ -85,9 +100,7 @@ def _options(arguments):
         "names", nargs="*", metavar="NAME", help="figures to make (default: all but movies; see --list)"
     )
     parser.add_argument("--list", action="store_true", help="list the figures and what they show, and stop")
-    parser.add_argument(
-        "--out", type=Path, default=HERE, metavar="DIR", help="folder of the pictures (default: figures/)"
-    )
+    parser.add_argument("--out", default=str(HERE), metavar="DIR", help="folder of the pictures (default: figures/)")
     parser.add_argument(
         "--check", action="store_true", help="write nothing: recompute and compare with the stored JSON"
     )
@@ -113,6 +126,9 @@ def _options(arguments):
         for ending in options.formats:
             if ending not in allowed:
                 parser.error(f"--formats must be some of {','.join(allowed)}, got {ending!r}")
+    if not options.out or "\0" in options.out:
+        parser.error(f"--out must be the name of a folder, got {options.out!r}")
+    options.out = Path(options.out)
     if not (options.check or options.list):
         try:
             options.out.mkdir(parents=True, exist_ok=True)

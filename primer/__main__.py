@@ -20,6 +20,8 @@ def main(arguments=None):
     0 if it did what was asked; 2, and the reason on stderr, if the input cannot be used; 130 after Ctrl-C; 141 if the
     reader of its output went away, as ``head`` does.
     """
+    if hasattr(sys.stdout, "reconfigure"):
+        sys.stdout.reconfigure(errors="backslashreplace")  # a terminal without the degree sign gets \xb0
     parser = _parser()
     try:
         if not (sys.argv[1:] if arguments is None else arguments):

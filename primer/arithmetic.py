@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from primer.checks import integer, shown
+from primer.checks import integer, real_array, shown
 
 _PI = "3.14159265358979323846264338327950288419716939937510"  # more digits than any longdouble holds
 
@@ -70,15 +70,24 @@ def _decimal(digits):
 
 def constant(x, value):
     """``value`` at every point x, in the numbers of x, or in floats where x holds whole numbers."""
-    x = np.asarray(x)
+    x = points(x)
     return np.full_like(x, value, dtype=np.result_type(x, 0.0))
+
+
+def points(x):
+    """x as an array of finite numbers, multiprecision ones among them, or one sentence why not."""
+    if isinstance(x, np.ndarray) and x.dtype == object and all(hasattr(z, "context") for z in x.flat):
+        return x
+    return real_array("x", x)
 
 
 def sin(x):
     """sin x, element by element, also for arrays of multiprecision numbers."""
-    return np.sin(x) if np.asarray(x).dtype != object else np.frompyfunc(lambda z: z.context.sin(z), 1, 1)(x)
+    x = points(x)
+    return np.sin(x) if x.dtype != object else np.frompyfunc(lambda z: z.context.sin(z), 1, 1)(x)
 
 
 def cos(x):
     """cos x, element by element, also for arrays of multiprecision numbers."""
-    return np.cos(x) if np.asarray(x).dtype != object else np.frompyfunc(lambda z: z.context.cos(z), 1, 1)(x)
+    x = points(x)
+    return np.cos(x) if x.dtype != object else np.frompyfunc(lambda z: z.context.cos(z), 1, 1)(x)

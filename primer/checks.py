@@ -6,11 +6,54 @@ from numbers import Real
 
 import numpy as np
 
+MAX_BYTES = 2**31  # what would need more memory than this is refused before it starts
+
 
 def shown(value):
     """``value`` as it appears in a message, never longer than a line."""
-    text = repr(value)
+    if isinstance(value, np.generic) or (isinstance(value, np.ndarray) and value.ndim == 0):
+        value = value.item()  # 0.61 rather than np.float64(0.61) or array(0.61)
+    try:
+        text = " ".join(repr(value[:60] if isinstance(value, (str, bytes, list, tuple)) else value).split())
+    except ValueError:  # an int of more digits than Python prints
+        text = f"an {type(value).__name__} too long to show"
     return text if len(text) <= 60 else text[:57] + "..."
+
+
+def instance(name, value, kind, example=None):
+    """Return ``value`` if it is of this type, or say in one sentence that it is not."""
+    if not isinstance(value, kind):
+        raise TypeError(f"{name} must be a {example or kind.__name__}, got {shown(value)}")
+    return value
+
+
+def function(name, value, of):
+    """Return ``value`` if it can be called, or say in one sentence what it must be a function of."""
+    if not callable(value):
+        raise TypeError(f"{name} must be a function of {of}, got {shown(value)}")
+    return value
+
+
+def sequence(name, value, of):
+    """Return ``value`` as a tuple, or say in one sentence of what it must be a sequence."""
+    if isinstance(value, (str, bytes, dict)) or not np.iterable(value):
+        raise TypeError(f"{name} must be a sequence of {of}, got {shown(value)}")
+    return tuple(value)
+
+
+def affordable(what, size, got):
+    """Raise ValueError if ``size`` bytes are more than ``MAX_BYTES``: the sentence names ``what`` and what was got."""
+    if size > MAX_BYTES:
+        raise ValueError(f"{what} must fit into {MAX_BYTES / 2**30:.0f} GiB of memory, got {got}")
+
+
+def broadcast(**arrays):
+    """The arrays broadcast against each other, or one sentence that says their shapes do not fit."""
+    try:
+        return np.broadcast_arrays(*arrays.values())
+    except ValueError:
+        shapes = ", ".join(f"{name} {np.shape(array)}" for name, array in arrays.items())
+        raise ValueError(f"the shapes of {', '.join(arrays)} must broadcast, got {shapes}") from None
 
 
 def real(name, value, *, above=None, least=None, below=None, most=None):
@@ -65,8 +108,12 @@ def real_array(name, value):
     """
     try:
         array = np.asarray(value)
+        if array.dtype == object and array.size and all(isinstance(x, int) for x in array.flat):
+            array = array.astype(float)  # whole numbers beyond 64 bits
     except ValueError:  # a ragged list
         array = np.empty(0, dtype=object)
+    except OverflowError:
+        array = np.array(math.inf)
     if array.dtype.kind not in "iuf":
         raise TypeError(f"{name} must be a number or an array of numbers, got {shown(value)}")
     if not np.isfinite(array).all():

@@ -1,7 +1,7 @@
 """Compiled loops where numba can be imported, NumPy where it cannot."""
 
 import warnings
-from functools import cache
+from functools import cache, wraps
 from importlib import import_module
 
 
@@ -23,11 +23,21 @@ def _say(why):
 def jit(function):
     """``function`` as machine code that lets go of the interpreter.
 
-    It is cached on disk: beside its source, in the user's cache where that is read-only, or nowhere if both are.
+    It is cached on disk: beside its source, in the user's cache where that is read-only, or nowhere if both are, or if
+    the disk is full.
     """
     import numba
 
     try:
-        return numba.njit(cache=True, nogil=True)(function)
+        cached = numba.njit(cache=True, nogil=True)(function)
     except RuntimeError:  # no folder to write to
         return numba.njit(nogil=True)(function)
+
+    @wraps(function)
+    def called(*arguments):
+        try:
+            return cached(*arguments)
+        except OSError:  # compiled, but not saved; nothing has run yet
+            return cached(*arguments)
+
+    return called

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from primer.analysis.pencil import Pencil, growth
-from primer.checks import real_array, shown
+from primer.checks import affordable, instance, real_array, shown
 
 SCAN = 180  # directions of the first scan: a degree apart on the half circle
 PEAKS = 8  # local maxima followed up
@@ -62,12 +62,14 @@ def max_growth(pencil, k):
     >>> print(f"{max_growth(forward_backward, 10.0).growth:.2f}")
     100.00
     """
-    if not isinstance(pencil, Pencil):
-        raise TypeError(f"pencil must be a Pencil (for equations as text there is growth_rates), got {shown(pencil)}")
+    instance("pencil", pencil, Pencil, "Pencil (for equations as text there is growth_rates)")
     k = real_array("k", k)
     if (k <= 0).any():
-        raise ValueError("k must be positive everywhere: it is the length of the wavevector")
+        raise ValueError(f"k must be positive everywhere, being the length of the wavevector, got {shown(k)}")
     flat = k.reshape(-1)
+    # Each of the special directions is searched at all scales of the fan.
+    trials = 1 if pencil.dim == 1 else 2 * SPECIAL * FAN.size
+    affordable("k: all directions of its wavenumbers", 128 * flat.size * trials * pencil.size**2, f"shape {k.shape}")
     if pencil.dim == 1:
         signs = np.array([1.0, -1.0])
         rates = growth(pencil, flat[:, None] * signs)

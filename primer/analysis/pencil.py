@@ -7,8 +7,9 @@ from functools import cached_property
 import numpy as np
 
 from primer.analysis.eigen import degree, finite_eigenvalues
-from primer.checks import integer, real_array, shown
+from primer.checks import affordable, instance, integer, real_array, shown
 
+_BEYOND = 1e150  # entries from here on have squares that are no numbers
 LARGEST = 12  # the number of finite eigenvalues is found by an expansion of 2^k terms
 
 
@@ -54,8 +55,9 @@ class Pencil:
                 object.__setattr__(self, name, _square(name, getattr(self, name)))
         single = _square("E", self.E(self.probe[..., 0]) if callable(self.E) else self.E)
         object.__setattr__(self, "size", len(single))
-        if _square("S", self.S(self.probe[..., 0]) if callable(self.S) else self.S).shape != single.shape:
-            raise ValueError("S and E must be square matrices of the same size")
+        other = _square("S", self.S(self.probe[..., 0]) if callable(self.S) else self.S)
+        if other.shape != single.shape:
+            raise ValueError(f"S and E must be square matrices of the same size, got {other.shape} and {single.shape}")
         if self.size > LARGEST:
             raise ValueError(f"S and E must be no larger than {LARGEST} x {LARGEST}, got {self.size} x {self.size}")
         if self.count < 0:
@@ -92,7 +94,12 @@ class Pencil:
         xi = self.wavevectors(xi)
         shape = xi.shape if self.dim == 1 else xi.shape[1:]
         flat = xi.reshape(-1) if self.dim == 1 else xi.reshape(2, -1)
-        return tuple(self._values(name, flat).reshape(*shape, self.size, self.size) for name in ("S", "E"))
+        affordable("xi: the matrices of all wavevectors", 128 * flat.shape[-1] * self.size**2, f"shape {xi.shape}")
+        with np.errstate(over="ignore", invalid="ignore"):
+            S, E = (self._values(name, flat).reshape(*shape, self.size, self.size) for name in ("S", "E"))
+        if not (_moderate(S) and _moderate(E)):
+            raise ValueError(f"xi must leave S and E finite, and below {_BEYOND:g}, got {shown(xi)}")
+        return S, E
 
     def wavevectors(self, xi):
         """xi as a float array, its shape checked."""
@@ -136,8 +143,7 @@ def growth(pencil, xi):
     >>> print(growth(backward_heat, [1.0, 10.0]))
     [  1. 100.]
     """
-    if not isinstance(pencil, Pencil):
-        raise TypeError(f"pencil must be a Pencil (for equations as text there is growth_rates), got {shown(pencil)}")
+    instance("pencil", pencil, Pencil, "Pencil (for equations as text there is growth_rates)")
     lam = pencil.eigenvalues(xi)
     return lam[..., 0].real if pencil.count else np.full(lam.shape[:-1], -np.inf)
 
@@ -183,8 +189,12 @@ def _square(name, value):
     if value.ndim != 2 or value.shape[0] != value.shape[1] or not value.size:
         raise ValueError(f"{name} must give one square matrix for one wavevector, got shape {value.shape}")
     if not np.isfinite(value).all():
-        raise ValueError(f"{name} must be finite everywhere")
+        raise ValueError(f"{name} must be finite everywhere, got {shown(value)}")
     return value
+
+
+def _moderate(values):
+    return bool((np.abs(values) < _BEYOND).all())
 
 
 def _serves_many(f, xi, size):

@@ -1,12 +1,13 @@
 """Granular rheologies under the same test: Coulomb, mu(I), CSSM and CIDR (sections 2 to 4 of the paper)."""
 
+from primer.granular.ansatz import Ansatz
 from primer.granular.compaction import Compaction
 from primer.granular.criteria import conditions, critical_state, incompressible_criterion, neutral_inertial_numbers
 from primer.granular.friction import Friction, MuI
 from primer.granular.linearisation import coefficients, linearise
 from primer.granular.materials import DISCS_2011, EXAMPLE_COMPACTION, GLASS_BEADS, GLASS_BEADS_2015, GLASS_BEADS_2017
 from primer.granular.posedness import growth_limit, largest_growth, verdict
-from primer.granular.rheology import CIDR, CSSM, Ansatz, Coulomb, IncompressibleMuI
+from primer.granular.rheology import CIDR, CSSM, Coulomb, IncompressibleMuI
 from primer.granular.state import BaseState, admit
 
 __all__ = [

@@ -3,6 +3,7 @@
 import json
 import math
 
+from primer.checks import real, shown
 from primer.granular.compaction import Compaction
 from primer.granular.criteria import conditions, incompressible_criterion, neutral_inertial_numbers
 from primer.granular.friction import MuI
@@ -55,11 +56,11 @@ def report(law, p, phi, I, d=1.0, rho=1.0, mu1=None, mu2=None, I0=None, mu=None,
     ``EXAMPLE_COMPACTION`` where left out.
     """
     if law not in LAWS:
-        raise ValueError(f"law must be one of {', '.join(LAWS)}, got {law!r}")
+        raise ValueError(f"law must be one of {', '.join(LAWS)}, got {shown(law)}")
     beads, packing = GLASS_BEADS.friction, EXAMPLE_COMPACTION
     friction = MuI(_or(mu1, beads.mu1), _or(mu2, beads.mu2), _or(I0, beads.I0))
     compaction = Compaction(_or(phi0, packing.phi0), _or(eps, packing.eps), _or(C0, packing.C0))
-    state = BaseState(p, phi, I, d, rho)
+    state = BaseState(*(real(name, value, above=0) for name, value in zip(_STATE, (p, phi, I, d, rho), strict=True)))
     constant = _or(mu, float(friction.mu(I)))
     made = {
         "coulomb": lambda: Coulomb(constant),
@@ -125,6 +126,7 @@ def text(answer):
     return "\n".join(lines)
 
 
+_STATE = ("p", "phi", "I", "d", "rho")
 _NAMES = ("law", "p", "phi", "I", "d", "rho", "mu1", "mu2", "I0", "mu", "phi0", "eps", "C0")
 
 

@@ -65,3 +65,9 @@ class Compaction:
         if ((phi < self.phi0) | (phi >= top) | (z >= 1)).any():
             raise ValueError(f"phi must satisfy phi0 = {self.phi0:g} <= phi < phi0 + eps = {top:g}, got {shown(phi)}")
         return z
+
+
+def has_C(compaction):
+    """Raise TypeError unless there are the functions C(phi) and dC(phi)."""
+    if isinstance(compaction, type) or not all(callable(getattr(compaction, name, None)) for name in ("C", "dC")):
+        raise TypeError(f"compaction must be a Compaction(phi0, eps, C0), got {shown(compaction)}")

@@ -107,8 +107,9 @@ def neutral_inertial_numbers(friction, low=1e-12, high=1e12):
     [0.019713 0.845783]
     """
     friction = as_friction(friction)
-    low = real("low", low, above=0)
-    high = real("high", high, least=low)
+    low, high = real("low", low, above=0), real("high", high, above=0)
+    if low > high:
+        raise ValueError(f"low must be <= high, got low = {low:g} and high = {high:g}")
 
     def growth(s):
         return np.minimum(incompressible_criterion(friction, np.exp(s)).growth, 1)
@@ -144,7 +145,7 @@ def critical_state(law, phi, I=0.1, d=1.0, rho=1.0):
     >>> print(f"{state.p:.4f}")  # mu C(phi)
     0.4000
     """
-    if not hasattr(law, "p_critical"):
+    if isinstance(law, type) or not hasattr(law, "p_critical"):
         raise TypeError(f"law must have a critical state, as CSSM and CIDR do, got {shown(law)}")
     return BaseState(law.p_critical(phi, I), phi, I, d, rho)
 

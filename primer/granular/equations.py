@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 
+from primer.checks import shown
 from primer.granular.state import admit
 
 _I = "d*sqrt(((u_x - v_y)^2 + (u_y + v_x)^2)*rho/p)"  # 2 d ||D||/sqrt(p/rho), (dfn-I)
@@ -39,10 +40,10 @@ def derive(law, state, order="maximal"):
     from primer.analysis.symbolic import symbol
 
     if order not in ("maximal", "full"):
-        raise ValueError(f"order must be 'maximal' or 'full', got {order!r}")
+        raise ValueError(f"order must be 'maximal' or 'full', got {shown(order)}")
+    admit(law, state)
     if state.shape != ():
         raise ValueError(f"state must be a single state to make a pencil, got shape {state.shape}")
-    admit(law, state)
     incompressible = getattr(law, "incompressible", False)
     kept = [j for j in range(5) if not (incompressible and j == 2)]
     here = state.p, state.phi, state.I

@@ -6,7 +6,7 @@ from dataclasses import fields, replace
 
 import numpy as np
 
-from primer.checks import real_array
+from primer.checks import affordable, real_array, shown
 from primer.granular.dispersion import growth_rate
 from primer.granular.linearisation import Coefficients
 
@@ -21,6 +21,7 @@ _REACH = (
     np.concatenate([np.full(25, _STEP), (_OUT - _PREVIOUS)[::-1], [_OUT[0]], _NEXT - _OUT]),
 )
 _BLOCK = 2048  # states at a time: the work arrays then stay in the cache
+_LARGEST = 1e50  # growth rates come from a cubic with coefficients up to k^6
 _GOLDEN = (math.sqrt(5) - 1) / 2
 
 
@@ -42,8 +43,16 @@ def fastest(c, k):
     """
     k = real_array("k", k)
     if (k <= 0).any():
-        raise ValueError("k must be > 0 everywhere: it is the length of the wavevector")
-    shape = np.broadcast_shapes(k.shape, np.shape(c.A))
+        raise ValueError(f"k must be > 0 everywhere, being the length of the wavevector, got {shown(k)}")
+    try:
+        shape = np.broadcast_shapes(k.shape, np.shape(c.A))
+    except ValueError:
+        raise ValueError(
+            f"k must have a shape that broadcasts against the states' {np.shape(c.A)}, got {k.shape}"
+        ) from None
+    if (k > _LARGEST).any():
+        raise ValueError(f"k must be <= {_LARGEST:g} everywhere, for its powers to be finite, got {shown(k)}")
+    affordable("k and the states", 200 * math.prod(shape), f"shape {shape}")
     columns = {f.name: _flat(getattr(c, f.name), shape) for f in fields(Coefficients) if f.name != "incompressible"}
     k = _flat(k, shape)
     parts = [slice(i, i + _BLOCK) for i in range(0, max(k.size, 1), _BLOCK)]

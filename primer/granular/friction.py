@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from primer.checks import real, real_array, shown
+from primer.checks import affordable, broadcast, function, real, real_array, shown
 
 #: The tail constant of the connection formula: pi/sin(2 pi/5) = int_0^inf s^{-3/5}/(1 + s) ds.
 _TAIL = math.pi / math.sin(2 * math.pi / 5)
@@ -107,24 +107,23 @@ class Friction:
 
     def __post_init__(self):
         for name in ("mu", "dmu"):
-            if not callable(getattr(self, name)):
-                raise TypeError(f"{name} must be a function of I, got {shown(getattr(self, name))}")
+            function(name, getattr(self, name), "I")
 
     def alpha(self, I):
         """alpha(I) of eq. (Cmu-formulas-for-alpha)."""
-        return 0.8 * self.mu(np.asarray(I)) + 0.48 * _mean(self.mu, I, -3 / 5)
+        return 0.8 * self.mu(inertial("I", I)) + 0.48 * _mean(self.mu, I, -3 / 5)
 
     def beta(self, I):
         """beta(I) of eq. (Cmu-formulas-for-beta)."""
-        return -0.4 * self.mu(np.asarray(I)) + 0.96 * _mean(self.mu, I, -3 / 5)
+        return -0.4 * self.mu(inertial("I", I)) + 0.96 * _mean(self.mu, I, -3 / 5)
 
     def dalpha(self, I):
         """alpha'(I)."""
-        return 0.8 * self.dmu(np.asarray(I)) + 0.48 * _mean(self.dmu, I, 2 / 5)
+        return 0.8 * self.dmu(inertial("I", I)) + 0.48 * _mean(self.dmu, I, 2 / 5)
 
     def dbeta(self, I):
         """beta'(I)."""
-        return -0.4 * self.dmu(np.asarray(I)) + 0.96 * _mean(self.dmu, I, 2 / 5)
+        return -0.4 * self.dmu(inertial("I", I)) + 0.96 * _mean(self.dmu, I, 2 / 5)
 
 
 def as_friction(law):
@@ -147,6 +146,13 @@ def inertial(name, I):
     if (I < 0).any():
         raise ValueError(f"{name} must be >= 0 everywhere, got {shown(I)}")
     return I
+
+
+def numbers(p, phi, I):
+    """(p, phi, I) as arrays of finite numbers, I >= 0, whose shapes broadcast, or one sentence why not."""
+    arrays = {"p": real_array("p", p), "phi": real_array("phi", phi), "I": inertial("I", I)}
+    broadcast(**arrays)
+    return tuple(array[()] for array in arrays.values())
 
 
 def _J(r):
@@ -183,6 +189,7 @@ _W = np.tile(_WEIGHTS, 48)
 def _mean(g, I, power):
     """int_0^1 s^power g(s I) ds for power > -1, of the shape of I."""
     I = inertial("I", I)
+    affordable("I: the quadrature at all inertial numbers", 1024 * I.size, f"shape {I.shape}")
     weights = _W * np.exp(-(power + 1) * _Y)
     blocks = []
     for part in np.array_split(I.ravel(), max(1, I.size // 4096)):  # a few MB at a time

@@ -4,10 +4,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from primer.checks import affordable, real, shown
+from primer.granular.compaction import has_C
 from primer.granular.fastest import fastest
 from primer.granular.friction import as_friction, inertial
 from primer.granular.linearisation import coefficients
-from primer.granular.state import BaseState
+from primer.granular.state import BaseState, a_law
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,7 +38,13 @@ def growth_map(law, I, ratio, compaction, phi, k=1e4):
     Every direction is optimised; a state costs about 90 characteristic polynomials. The compaction gives the pressure
     scale also to laws that have none.
     """
-    I, ratio = inertial("I", I), inertial("ratio", ratio)
+    a_law(law)
+    has_C(compaction)
+    I, ratio, k, phi = inertial("I", I), inertial("ratio", ratio), real("k", k, above=0), real("phi", phi, above=0)
+    for name, axis in (("I", I), ("ratio", ratio)):
+        if axis.ndim != 1 or not axis.size or (axis == 0).any():
+            raise ValueError(f"{name} must be a sequence of numbers > 0, got {shown(axis)}")
+    affordable("I and ratio", 300 * ratio.size * I.size, f"{I.size} times {ratio.size} states")
     p = ratio[:, None] * compaction.C(phi)
     inside = np.broadcast_to(law.Y(p, phi, I) > 0, (ratio.size, I.size))
     growth, x = np.full(inside.shape, np.nan), np.full(inside.shape, np.nan)

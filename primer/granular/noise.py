@@ -4,10 +4,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from primer.checks import integer, real
+from primer.checks import affordable, integer, real, shown
 from primer.granular.dispersion import growth_rate
 from primer.granular.linearisation import coefficients, reduced
 
+_LARGEST = 1e50  # of a wavenumber: its powers must be finite
 _PARTS = 10  # the growth is measured over the last of this many parts of the time
 
 
@@ -51,10 +52,18 @@ def noise_after(law, state, n, t, side=200.0, seed=1, smooth=2.5):
     t : float      time > 0
     side : float   the side of the square, in units of length
     seed : int     of the noise
-    smooth : float amplitudes fall like |m|^-smooth
+    smooth : float amplitudes fall like |m|^-smooth, -10 <= smooth <= 10
     """
     n, t, side = integer("n", n, least=4), real("t", t, above=0), real("side", side, above=0)
+    seed, smooth = integer("seed", seed, least=0), real("smooth", smooth, least=-10, most=10)
+    if n % 2:
+        raise ValueError(f"n must be even, got {n}")
+    affordable("n: the matrices of all modes", 2000 * n**2, f"n = {shown(n)}")
     c = coefficients(law, state)
+    if state.shape != ():
+        raise ValueError(f"state must be a single state, got shape {state.shape}")
+    if np.pi * n / side > _LARGEST:
+        raise ValueError(f"side must be >= pi n/{_LARGEST:g}, got {side:g} with n = {n}")
     q = modes(n, seed, smooth) * np.array([state.D * state.d, state.D * state.d, 1e-3])[:, None, None]
     moving = np.abs(q).any(axis=0)
     m = np.stack(np.meshgrid(*[np.fft.fftfreq(n, 1 / n)] * 2, indexing="ij"))[:, moving]
@@ -66,8 +75,11 @@ def noise_after(law, state, n, t, side=200.0, seed=1, smooth=2.5):
 
         step, value = expm(-reduced(c, xi) * (t / _PARTS)), q[:, moving].T
     values = [value]
-    for _ in range(_PARTS):
-        values.append((step @ values[-1][..., None])[..., 0])
+    with np.errstate(over="ignore", invalid="ignore"):
+        for _ in range(_PARTS):
+            values.append((step @ values[-1][..., None])[..., 0])
+    if not np.isfinite(values).all():
+        raise ValueError(f"t must be short enough for the noise to stay finite, got {t:g}")
     before, after = (_field(n, moving, v) for v in (values[0], values[-1]))
     k, speeds = np.hypot(*xi), [np.linalg.norm(v[:, :2], axis=1) for v in values[-2:]]
     alive = (speeds[0] > 0) & (speeds[1] > 0)  # a mode damped below the smallest number has no rate left to measure

@@ -8,15 +8,15 @@ A law may say more: ``p_max(phi, I)``, the pressure at which Y falls to zero, an
 declares f = 0 and phi constant.
 """
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
 import numpy as np
 
-from primer.checks import real, shown
-from primer.granular.compaction import Compaction
-from primer.granular.friction import as_friction
+from primer.checks import real
+from primer.granular.ansatz import Compressible
+from primer.granular.compaction import Compaction, has_C
+from primer.granular.friction import as_friction, numbers
 
 
 class _Incompressible:
@@ -26,6 +26,7 @@ class _Incompressible:
 
     def f(self, p, phi, I):
         """0: the flow is isochoric."""
+        p, phi, I = numbers(p, phi, I)
         return np.zeros(np.broadcast_shapes(np.shape(p), np.shape(phi), np.shape(I)))[()]
 
     Y_phi = f_p = f_phi = f_I = f
@@ -50,14 +51,17 @@ class Coulomb(_Incompressible):
 
     def Y(self, p, phi, I):
         """mu p."""
+        p, phi, I = numbers(p, phi, I)
         return self.mu * p + self.f(p, phi, I)
 
     def Y_p(self, p, phi, I):
         """mu."""
+        p, phi, I = numbers(p, phi, I)
         return self.mu + self.f(p, phi, I)
 
     def Y_I(self, p, phi, I):
         """0."""
+        p, phi, I = numbers(p, phi, I)
         return self.f(p, phi, I)
 
 
@@ -81,78 +85,22 @@ class IncompressibleMuI(_Incompressible):
 
     def Y(self, p, phi, I):
         """mu(I) p."""
+        p, phi, I = numbers(p, phi, I)
         return self.friction.mu(I) * p + self.f(p, phi, I)
 
     def Y_p(self, p, phi, I):
         """mu(I)."""
+        p, phi, I = numbers(p, phi, I)
         return self.friction.mu(I) + self.f(p, phi, I)
 
     def Y_I(self, p, phi, I):
         """mu'(I) p."""
+        p, phi, I = numbers(p, phi, I)
         return self.friction.dmu(I) * p + self.f(p, phi, I)
 
 
-class _Compressible:
-    """Y = a(I) p - p^2/C(phi) and f = b(I) - 2 p/C(phi), eq. (Cmu-ansatz-for-aux-fcn); a and b are the subclass's."""
-
-    incompressible: ClassVar[bool] = False
-
-    def Y(self, p, phi, I):
-        """a(I) p - p^2/C(phi)."""
-        return p * (self.a(I) - p / self._C(phi))
-
-    def Y_p(self, p, phi, I):
-        """a(I) - 2 p/C(phi)."""
-        return self.a(I) - 2 * p / self._C(phi)
-
-    def Y_phi(self, p, phi, I):
-        """p^2 C'(phi)/C(phi)^2."""
-        return (p / self._C(phi)) ** 2 * self.compaction.dC(phi) + 0 * np.asarray(I)
-
-    def Y_I(self, p, phi, I):
-        """a'(I) p."""
-        return self.da(I) * p + 0 * np.asarray(phi)
-
-    def f(self, p, phi, I):
-        """b(I) - 2 p/C(phi)."""
-        return self.b(I) - 2 * p / self._C(phi)
-
-    def f_p(self, p, phi, I):
-        """-2/C(phi)."""
-        return -2 / self._C(phi) + 0 * np.asarray(p) * np.asarray(I)
-
-    def f_phi(self, p, phi, I):
-        """2 p C'(phi)/C(phi)^2."""
-        return 2 * p * self.compaction.dC(phi) / self._C(phi) ** 2 + 0 * np.asarray(I)
-
-    def f_I(self, p, phi, I):
-        """b'(I)."""
-        return self.db(I) + 0 * np.asarray(p) * np.asarray(phi)
-
-    def p_max(self, phi, I):
-        """a(I) C(phi): Y > 0 for 0 < p < p_max."""
-        return self.a(I) * self.compaction.C(phi)
-
-    def p_critical(self, phi, I):
-        """b(I) C(phi)/2: there f = 0, and the material shears without a change of volume."""
-        return self.b(I) * self.compaction.C(phi) / 2
-
-    def _C(self, phi):
-        C = self.compaction.C(phi)
-        if (np.asarray(C) == 0).any():
-            raise ValueError(
-                f"phi must be > phi0 = {self.compaction.phi0:g}: there C(phi) = 0 and no pressure can be carried, "
-                f"got {shown(phi)}"
-            )
-        return C
-
-    def _check_compaction(self):
-        if not (hasattr(self.compaction, "C") and hasattr(self.compaction, "dC")):
-            raise TypeError(f"compaction must be a Compaction(phi0, eps, C0), got {shown(self.compaction)}")
-
-
 @dataclass(frozen=True)
-class CSSM(_Compressible):
+class CSSM(Compressible):
     """Critical state soil mechanics, eqs. (sample-yield-cond) and (flow-rule-CSSM)::
 
         Y = 2 mu p - p^2/C(phi),    f = dY/dp = 2 mu - 2 p/C(phi)
@@ -172,7 +120,7 @@ class CSSM(_Compressible):
 
     def __post_init__(self):
         object.__setattr__(self, "mu", real("mu", self.mu, above=0))
-        self._check_compaction()
+        has_C(self.compaction)
 
     def a(self, I):
         """2 mu."""
@@ -186,7 +134,7 @@ class CSSM(_Compressible):
 
 
 @dataclass(frozen=True)
-class CIDR(_Compressible):
+class CIDR(Compressible):
     """The paper's compressible I-dependent rheology, eq. (Cmu-ansatz-for-aux-fcn)::
 
         Y = alpha(I) p - p^2/C(phi),    f = beta(I) - 2 p/C(phi)
@@ -209,7 +157,7 @@ class CIDR(_Compressible):
 
     def __post_init__(self):
         object.__setattr__(self, "friction", as_friction(self.friction))
-        self._check_compaction()
+        has_C(self.compaction)
 
     def a(self, I):
         """alpha(I)."""
@@ -226,25 +174,3 @@ class CIDR(_Compressible):
     def db(self, I):
         """beta'(I)."""
         return self.friction.dbeta(I)
-
-
-@dataclass(frozen=True)
-class Ansatz(_Compressible):
-    """Eq. (Cmu-ansatz-for-aux-fcn) with any a(I) and b(I), to break the theorem's hypotheses one at a time::
-
-        Y = a(I) p - p^2/C(phi),    f = b(I) - 2 p/C(phi)
-
-    Parameters
-    ----------
-    a, da, b, db : callable    a(I), a'(I), b(I), b'(I), each taking and giving arrays
-    compaction : Compaction    C(phi)
-    """
-
-    a: Callable
-    da: Callable
-    b: Callable
-    db: Callable
-    compaction: Compaction
-
-    def __post_init__(self):
-        self._check_compaction()

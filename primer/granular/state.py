@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from primer.checks import real_array, shown
+from primer.checks import instance, real_array, shown
 
 _LAW = "Y", "Y_p", "Y_phi", "Y_I", "f", "f_p", "f_phi", "f_I"
 
@@ -67,11 +67,19 @@ class BaseState:
 
     def tau(self, law):
         """||tau|| = Y(p, phi, I)."""
+        a_law(law)
         return law.Y(self.p, self.phi, self.I)
 
     def div_u(self, law):
         """div u = 2 f(p, phi, I) ||D||: positive where the material expands."""
+        a_law(law)
         return 2 * law.f(self.p, self.phi, self.I) * self.D
+
+
+def a_law(law):
+    """Raise TypeError unless the law has the eight functions of (p, phi, I)."""
+    if isinstance(law, type) or not all(callable(getattr(law, name, None)) for name in _LAW):
+        raise TypeError(f"law must have the functions {', '.join(_LAW)} of (p, phi, I), as CIDR has, got {shown(law)}")
 
 
 def admit(law, state):
@@ -84,11 +92,10 @@ def admit(law, state):
     ------
     ValueError    if phi is outside the law's range or Y(p, phi, I) is not a positive number
     """
-    if isinstance(law, type) or not all(callable(getattr(law, name, None)) for name in _LAW):
-        raise TypeError(f"law must have the functions {', '.join(_LAW)} of (p, phi, I), as CIDR has, got {shown(law)}")
-    if not isinstance(state, BaseState):
-        raise TypeError(f"state must be a BaseState, got {shown(state)}")
-    Y = np.broadcast_to(law.Y(state.p, state.phi, state.I), state.shape)
+    a_law(law)
+    instance("state", state, BaseState)
+    with np.errstate(over="ignore", invalid="ignore"):
+        Y = np.broadcast_to(law.Y(state.p, state.phi, state.I), state.shape)
     bad = ~((Y > 0) & (np.inf > Y))
     if bad.any():
         p, phi, I = (np.broadcast_to(v, state.shape)[bad][0] for v in (state.p, state.phi, state.I))

@@ -3,11 +3,12 @@
 from dataclasses import dataclass
 from typing import Any
 
+from primer.granular.ansatz import Ansatz
 from primer.granular.criteria import conditions
 from primer.granular.friction import Friction
 from primer.granular.materials import EXAMPLE_COMPACTION, GLASS_BEADS
 from primer.granular.posedness import verdict
-from primer.granular.rheology import CIDR, CSSM, Ansatz
+from primer.granular.rheology import CIDR, CSSM
 from primer.granular.state import BaseState
 
 

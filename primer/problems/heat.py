@@ -6,8 +6,8 @@ from typing import ClassVar
 import numpy as np
 from scipy.special import beta
 
-from primer.arithmetic import constant, sin
-from primer.checks import integer, real, real_array, shown
+from primer.arithmetic import constant, points, sin
+from primer.checks import affordable, broadcast, function, integer, real, real_array, shown
 
 
 def tendency(u_xx):
@@ -28,7 +28,7 @@ class BackwardHeat:
 
     Raises
     ------
-    TypeError, ValueError    if xi is not an integer >= 1 or amplitude is not a finite real number
+    TypeError, ValueError    if xi is not an integer from 1 to 2^53 or amplitude is not a finite real number
 
     >>> heat = BackwardHeat(xi=3)
     >>> (u,) = heat.exact(0.5, t=0.1)  # sin(3/2) e^{0.9}
@@ -42,11 +42,13 @@ class BackwardHeat:
 
     def __post_init__(self):
         object.__setattr__(self, "xi", integer("xi", self.xi, least=1))
+        if self.xi > 2**53:
+            raise ValueError(f"xi must be an integer <= 2^53, got {shown(self.xi)}")
         object.__setattr__(self, "amplitude", real("amplitude", self.amplitude))
 
     def initial(self, x):
         """(u,) at t = 0; x of any shape."""
-        return (self.amplitude * sin(self.xi * np.asarray(x)),)
+        return (self.amplitude * sin(self.xi * points(x)),)
 
     def steady(self, x):
         """(0,): the trivial solution that the paper perturbs."""
@@ -71,7 +73,12 @@ class BackwardHeat:
         Complex, of the shape of xi + (1, 1).
         """
         xi = real_array("xi", xi)
-        d2 = multiplier(xi, 2) if multiplier else (1j * xi) ** 2
+        if multiplier is not None:
+            function("multiplier", multiplier, "xi and m")
+        with np.errstate(over="ignore", invalid="ignore"):
+            d2 = multiplier(xi, 2) if multiplier else (1j * xi) ** 2
+        if not np.isfinite(d2).all():
+            raise ValueError(f"xi must leave the symbol finite, got {shown(xi)}")
         return np.asarray(tendency(d2), dtype=complex)[..., None, None]
 
 
@@ -80,7 +87,7 @@ def mode(xi, x, t):
 
     Infinite where it is beyond the largest number, and 0 where sin(xi x) is, however large t.
     """
-    xi, x, t = real_array("xi", xi), real_array("x", x), real_array("t", t)
+    xi, x, t = broadcast(xi=real_array("xi", xi), x=real_array("x", x), t=real_array("t", t))
     wave = np.sin(xi * x)
     with np.errstate(over="ignore", invalid="ignore"):
         return np.where(wave == 0, 0.0, wave * np.exp(xi**2 * t))[()]
@@ -92,7 +99,7 @@ def scaled_amplitude(xi, t, p):
     At t = 0 it tends to zero as xi -> infinity (in C^k if p > k); at any t > 0 to infinity: Hadamard's third condition
     fails.
     """
-    xi, t = real_array("xi", xi), real_array("t", t)
+    xi, t = broadcast(xi=real_array("xi", xi), t=real_array("t", t))
     p = real("p", p, least=0)
     if (xi == 0).any():
         raise ValueError(f"xi must not be 0, got {shown(xi.tolist())}")
@@ -120,6 +127,7 @@ def abs_sin_coefficients(p, m_max):
     array of shape (m_max + 1,)
     """
     p, m_max = real("p", p, least=0), integer("m_max", m_max, least=0)
+    affordable("m_max + 1 coefficients", 64 * m_max, f"m_max = {shown(m_max)}")
     m = np.arange(m_max)
     ratios = (m - p / 2) / (m + 1 + p / 2)
     return np.cumprod(np.concatenate([[beta((p + 1) / 2, 0.5) / np.pi], ratios]))

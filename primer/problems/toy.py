@@ -7,7 +7,7 @@ from typing import ClassVar
 import numpy as np
 
 from primer.arithmetic import constant, cos, sin
-from primer.checks import real, real_array
+from primer.checks import broadcast, function, real, real_array, shown
 
 
 def tendency(u, v, u_x, v_x, v_xx, sin_x, eps):
@@ -77,7 +77,7 @@ class Toy:
         """
         if self.eps != 0:
             raise ValueError(f"eps must be 0 for the exact solution (toy-sln), got {self.eps!r}; use a numerical one")
-        x, t = real_array("x", x), real_array("t", t)
+        x, t = broadcast(x=real_array("x", x), t=real_array("t", t))
         w, decay = math.sqrt(3) / 2, np.exp(-t / 2)
         u = self.a - np.cos(x) + decay * np.cos(x) * np.cos(w * t)
         v = -decay * np.sin(x) * np.sin(w * t + math.pi / 6)
@@ -111,9 +111,14 @@ class Toy:
         -------
         complex array of shape s + (2, 2), with det(lam - S) = lam^2 + (1 + eps u* xi^2) lam + xi^2 - i eps xi v_xx*
         """
-        xi, u, v_xx = np.broadcast_arrays(real_array("xi", xi), real_array("u", u), real_array("v_xx", v_xx))
-        d1, d2 = (multiplier(xi, m) if multiplier else (1j * xi) ** m for m in (1, 2))
+        xi, u, v_xx = broadcast(xi=real_array("xi", xi), u=real_array("u", u), v_xx=real_array("v_xx", v_xx))
+        if multiplier is not None:
+            function("multiplier", multiplier, "xi and m")
         S = np.empty((*xi.shape, 2, 2), dtype=complex)
-        S[..., 0, 0], S[..., 0, 1] = 0, d1
-        S[..., 1, 0], S[..., 1, 1] = d1 + self.eps * v_xx, self.eps * u * d2 - 1
+        with np.errstate(over="ignore", invalid="ignore"):
+            d1, d2 = (multiplier(xi, m) if multiplier else (1j * xi) ** m for m in (1, 2))
+            S[..., 0, 0], S[..., 0, 1] = 0, d1
+            S[..., 1, 0], S[..., 1, 1] = d1 + self.eps * v_xx, self.eps * u * d2 - 1
+        if not np.isfinite(S).all():
+            raise ValueError(f"xi, u and v_xx must leave the symbol finite, got xi = {shown(xi)} and u = {shown(u)}")
         return S

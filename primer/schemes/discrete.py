@@ -4,8 +4,9 @@ import math
 
 import numpy as np
 
-from primer.arithmetic import constant
-from primer.checks import real
+from primer.arithmetic import constant, cos
+from primer.checks import instance, real, shown
+from primer.problems.toy import Toy
 from primer.schemes.grid import Grid
 
 
@@ -15,8 +16,9 @@ def discrete_steady(toy, x, h):
     A central first difference turns cos x into -(sin h/h) sin x; u must make up for it. It differs from eq.
     (toy-steady) by h^2/6 to leading order.
     """
+    instance("toy", toy, Toy)
     h = real("h", h, above=0, below=math.pi)
-    return toy.a - (h / math.sin(h)) * np.cos(x), constant(x, 0)
+    return toy.a - (h / math.sin(h)) * cos(x), constant(x, 0)
 
 
 def dist_floor(n):
@@ -40,5 +42,14 @@ def amplification(symbol, dt):
     -------
     complex array of shape (..., m), with the largest modulus first
     """
-    factors = 1 + real("dt", dt, above=0) * np.linalg.eigvals(symbol)
+    dt = real("dt", dt, above=0)
+    try:
+        S = np.asarray(symbol, dtype=complex)
+    except (TypeError, ValueError):
+        raise TypeError(f"symbol must be an array of numbers, got {shown(symbol)}") from None
+    if S.ndim < 2 or S.shape[-1] != S.shape[-2] or not S.shape[-1]:
+        raise ValueError(f"symbol must have shape (..., m, m), got {S.shape}")
+    if not np.isfinite(S).all():
+        raise ValueError(f"symbol must be finite everywhere, got {shown(symbol)}")
+    factors = 1 + dt * np.linalg.eigvals(S)
     return np.take_along_axis(factors, np.argsort(-np.abs(factors), axis=-1), axis=-1)

@@ -5,12 +5,12 @@ from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 
-from primer.checks import shown
+from primer.checks import sequence
 from primer.compiled import compiled
 from primer.problems.toy import Toy
 from primer.schemes.block import KERNEL, Block
 from primer.schemes.ftcs import ftcs
-from primer.schemes.record import plan
+from primer.schemes.record import a_problem, plan
 
 
 def ftcs_ensemble(
@@ -50,9 +50,9 @@ def ftcs_ensemble(
     >>> [run.t_first_negative is not None for run in runs]
     [True, False]
     """
-    if isinstance(problems, str) or not np.iterable(problems):
-        raise TypeError(f"problems must be a sequence of problems, got {shown(problems)}")
-    problems = tuple(problems)
+    problems = sequence("problems", problems, "problems")
+    for problem in problems:
+        a_problem("problems", problem)
     options = (n, dt, t_end, record_every, snapshots, seed, blow_up_at, dtype, digits)
     asked = plan(*options)
     asked.refuse_if_large(fields=2, members=len(problems))
@@ -69,6 +69,7 @@ def ftcs_ensemble(
                 march.result()
         except KeyboardInterrupt:
             interrupted = True
-            for block in blocks:
+        finally:
+            for block in blocks:  # else the pool would wait for those still marching
                 block.halted = True
     return tuple(run for block in blocks for run in block.runs(interrupted))

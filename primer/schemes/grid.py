@@ -15,7 +15,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from primer.checks import integer
+from primer.checks import integer, real_array, shown
+
+MAX_POINTS = 10**7  # a finer grid is refused: a single field on it would take 80 MB
 
 
 @dataclass(frozen=True)
@@ -83,6 +85,8 @@ class Grid:
 
     def __post_init__(self):
         object.__setattr__(self, "n", integer("n", self.n, least=4))
+        if self.n > MAX_POINTS:
+            raise ValueError(f"n must be an integer <= {MAX_POINTS:.0e} to fit into memory, got {shown(self.n)}")
 
     @property
     def h(self):
@@ -96,11 +100,23 @@ class Grid:
 
     def derivative(self, f, m):
         """The m-th derivative of f, of shape (..., n), by central differences of second order, m = 1 or 2."""
-        f = np.asarray(f)
+        m, f = integer("m", m, least=1, most=2), f if _holds_complex(f) else real_array("f", f)
         if f.shape[-1:] != (self.n,):
             raise ValueError(f"f must have shape (..., {self.n}) on this grid, got {f.shape}")
         return CENTRAL[m](f, self.h)
 
     def multiplier(self, xi, m):
         """What that derivative does to e^{i xi x}: i sin(xi h)/h for m = 1, -(4/h^2) sin^2(xi h/2) for m = 2."""
-        return CENTRAL[m].multiplier(xi, self.h)
+        return CENTRAL[integer("m", m, least=1, most=2)].multiplier(real_array("xi", xi), self.h)
+
+
+def grids(name, ns):
+    """A tuple of grid sizes, each checked as ``Grid`` does, under the name of the argument that holds them."""
+    for n in ns:
+        if integer(name, n, least=4) > MAX_POINTS:
+            raise ValueError(f"{name} must be integers <= {MAX_POINTS:.0e} to fit into memory, got {shown(n)}")
+    return tuple(int(n) for n in ns)
+
+
+def _holds_complex(f):
+    return isinstance(f, np.ndarray) and f.dtype.kind == "c"

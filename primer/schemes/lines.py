@@ -6,7 +6,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from primer.checks import real, shown
+from primer.checks import affordable, instance, real, shown
 from primer.compiled import compiled
 from primer.problems.toy import Toy
 from primer.schemes.fourier import MATRIX_UP_TO, Fourier
@@ -14,6 +14,7 @@ from primer.schemes.grid import CENTRAL, Grid, Stencil
 from primer.schemes.runge_kutta import RK4, RungeKutta
 
 MAX_STEPS = 10**7  # a march of more steps than this (some minutes) is refused before it starts
+MAX_WORK = 10**12  # and one of more points times steps, which takes hours
 _BLOWN_UP = 1e100  # growth over the initial data at which a march is given up
 
 
@@ -86,19 +87,25 @@ def march_lines(problem, n, dt, t_end, space=CENTRAL, time=RK4):
     if isinstance(problem, type) or not all(hasattr(problem, part) for part in ("initial", "forcing", "rhs")):
         raise TypeError(f"problem must be a Toy, a BackwardHeat or an object with their methods, got {shown(problem)}")
     grid, dt, t_end = Grid(n), real("dt", dt, above=0), real("t_end", t_end, least=0)
-    if not isinstance(time, RungeKutta):
-        raise TypeError(f"time must be a RungeKutta step such as RK4 or RK8, got {shown(time)}")
-    if not isinstance(space, dict) or not all(isinstance(space.get(m), Stencil | Fourier) for m in (1, 2)):
-        raise TypeError(f"space must be a table of derivatives such as CENTRAL or FOURIER, got {shown(space)}")
+    _check(space, time)
     if not t_end / dt <= MAX_STEPS:
         raise ValueError(
             f"dt must be >= t_end/{MAX_STEPS:.0e} (more steps take too long), got {dt!r} with t_end {t_end!r}"
         )
+    affordable("n: the march", 16 * grid.n * (len(time.b) + 8), f"n = {grid.n}")
+    if not grid.n * t_end / dt <= MAX_WORK:
+        raise ValueError(f"n and dt must be such that n t_end/dt <= {MAX_WORK:.0e}, got n = {grid.n} and dt = {dt!r}")
     # A quotient that rounding leaves a little above a whole number is that number.
     steps = math.ceil(t_end / dt * (1 - 1e-12))
     step = t_end / steps if steps else dt
     (final,), _ = trace(problem, grid.n, space, time, np.array([step]), np.array([steps]))
     return Lines(problem, grid.n, step, t_end, space, time, grid.x, tuple(final))
+
+
+def _check(space, time):
+    instance("time", time, RungeKutta, "RungeKutta step such as RK4 or RK8")
+    if not isinstance(space, dict) or not all(isinstance(space.get(m), Stencil | Fourier) for m in (1, 2)):
+        raise TypeError(f"space must be a table of derivatives such as CENTRAL or FOURIER, got {shown(space)}")
 
 
 def stable_step(toy, n, space, time):
@@ -109,6 +116,9 @@ def stable_step(toy, n, space, time):
     ``time.reach``. The largest u there is: u = a - cos x (1 - e^{-t/2} cos wt) <= a + 1.2 for eps = 0, and diffusion
     lowers it.
     """
+    instance("toy", toy, Toy)
+    _check(space, time)
+    n = Grid(n).n
     d1, d2 = _largest(n, space[1], space[2])
     return 0.9 * time.reach / max(d1, 1 + toy.eps * (abs(toy.a) + 1.25) * d2)
 

@@ -1,17 +1,18 @@
 """A run in the making: its plan in whole steps, the log it keeps while it marches, and the ``Run`` made of both."""
 
+import math
 from dataclasses import dataclass
 from types import MappingProxyType
 
 import numpy as np
 
 from primer.arithmetic import Arithmetic, arithmetic
-from primer.checks import integer, real, shown
+from primer.checks import MAX_BYTES, integer, real, sequence, shown
 from primer.schemes.grid import Grid
 from primer.schemes.run import Run, Seed, Stop
 
 _SMALLEST = float(np.finfo(np.float32).tiny)  # a smaller step would be 0 in single precision
-MAX_BYTES = 2**31  # a run that would keep more than this is refused before it starts
+MAX_WORK = 10**13  # grid points times steps: a run of more, which takes hours, is refused before it starts
 
 
 @dataclass(frozen=True)
@@ -29,22 +30,24 @@ class Plan:
     blow_up_at: float
 
     def refuse_if_large(self, fields, members=1):
-        """Raise ValueError if so many runs of so many fields would keep more than ``MAX_BYTES``."""
-        records = self.steps // self.every + 1
-        if 16 * members * (3 * records + (len(self.times) + 12) * fields * self.grid.n) > MAX_BYTES:
+        """Raise ValueError if so many runs of so many fields would keep too much in memory, or march too long."""
+        n, records, shots = self.grid.n, self.steps // self.every + 1, len(self.times)
+        number = 16 if self.numbers.dtype != object else 128 - int(math.log2(max(self.numbers.epsilon, 1e-300)))
+        size = number * members * (3 * records + (shots + 12) * fields * n)
+        if size > MAX_BYTES:
             raise ValueError(
                 f"record_every, snapshots and n must let all runs fit into {MAX_BYTES / 2**30:.0f} GiB, "
-                f"got {members} with {records} records, {len(self.times)} snapshots and n = {self.grid.n}"
+                f"got {members} with {records} records, {shots} snapshots and n = {n}"
+            )
+        if self.steps * n > MAX_WORK:
+            raise ValueError(
+                f"dt, t_end and n must be such that n t_end/dt <= {MAX_WORK:.0e} (more takes too long), "
+                f"got dt = {self.dt:g}, {self.steps} steps and n = {n}"
             )
 
     def start(self, problem):
         """(h, x, state, log) before the first step: state of shape (fields, n)."""
-        if isinstance(problem, type) or not all(
-            hasattr(problem, part) for part in ("fields", "initial", "steady", "forcing", "rhs")
-        ):
-            raise TypeError(
-                f"problem must be a Toy, a BackwardHeat or an object with their methods, got {shown(problem)}"
-            )
+        a_problem("problem", problem)
         if self.seed and self.seed.field not in problem.fields:
             raise ValueError(f"seed field must be one of {', '.join(problem.fields)}, got {shown(self.seed.field)}")
         self.refuse_if_large(len(problem.fields))
@@ -56,6 +59,14 @@ class Plan:
             log = Log(self, self.numbers.array(problem.steady(x)))
             log.watch(0, np.array(state))
         return h, x, np.array(state), log
+
+
+def a_problem(name, problem):
+    """Raise TypeError unless the problem has what a march needs."""
+    if isinstance(problem, type) or not all(
+        hasattr(problem, part) for part in ("fields", "initial", "steady", "forcing", "rhs")
+    ):
+        raise TypeError(f"{name} must be a Toy, a BackwardHeat or an object with their methods, got {shown(problem)}")
 
 
 def plan(n, dt, t_end, record_every, snapshots, seed, blow_up_at, dtype, digits):
@@ -72,8 +83,7 @@ def plan(n, dt, t_end, record_every, snapshots, seed, blow_up_at, dtype, digits)
         if record_every is None
         else min(integer("record_every", record_every, least=1), steps + 1)
     )
-    if isinstance(snapshots, str) or not np.iterable(snapshots):
-        raise TypeError(f"snapshots must be a sequence of times, got {shown(snapshots)}")
+    snapshots = sequence("snapshots", snapshots, "times")
     times = tuple(sorted({real("snapshots", time, least=0, most=t_end) for time in snapshots}))
     shot_steps = np.array([min(round(time / dt), steps) for time in times], dtype=np.int64)
     blow_up_at = real("blow_up_at", blow_up_at, above=0, most=numbers.largest**0.5)

@@ -5,7 +5,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from primer.checks import real, real_array, shown
+from primer.checks import instance, real, real_array, shown
 from primer.problems.toy import Toy
 from primer.schemes.fourier import FOURIER, interpolate, transfer
 from primer.schemes.grid import Grid
@@ -19,6 +19,7 @@ _STEP, _STEP_TOL = 0.4, 1e-10
 _MORE_STEPS = 1.3  # of the second march: an eighth of the first one's error in time
 _SAFETY = 2  # by which the difference of the two marches is multiplied
 _ROUND_OFF = 32 * np.finfo(float).eps  # times |a| + 2: about four times the largest error that was all round-off
+_TIMES = 10**5  # at which the fields of both marches fit into a gigabyte
 _LOOK_AHEAD = 100.0  # time (the paper's longest) up to which an ill-posed case is searched for its horizon
 
 
@@ -118,8 +119,7 @@ def reference(toy, t, tol=1e-10):
     >>> bool(np.abs(truth.u - toy.exact(truth.x, 2.0)[0]).max() < 1e-10)  # eq. (toy-sln)
     True
     """
-    if not isinstance(toy, Toy):
-        raise TypeError(f"toy must be a Toy, got {shown(toy)}")
+    instance("toy", toy, Toy)
     t = _times(t)
     tol = real("tol", tol, above=0, below=1)
     if tol < 4 * _round_off(toy):
@@ -148,6 +148,8 @@ def reference(toy, t, tol=1e-10):
 
 def _times(t):
     t = np.atleast_1d(real_array("t", t)).astype(float)  # a copy
+    if t.size > _TIMES:
+        raise ValueError(f"t must be at most {_TIMES} times, got {t.size}")
     if t.ndim != 1 or t.size == 0 or t.min() < 0:
         raise ValueError(f"t must be a time >= 0 or a non-empty sequence of them, got {shown(t)}")
     return t

@@ -7,7 +7,7 @@ from enum import StrEnum
 
 import numpy as np
 
-from primer.arithmetic import cos
+from primer.arithmetic import cos, points
 from primer.checks import integer, real, shown
 
 
@@ -57,7 +57,7 @@ class Seed:
 
     def __call__(self, x):
         """The perturbation at x, of the shape of x."""
-        return self.amplitude * cos(self.mode * x + self.phase)
+        return self.amplitude * cos(self.mode * points(x) + self.phase)
 
 
 @dataclass(frozen=True, eq=False)

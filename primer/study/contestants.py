@@ -38,6 +38,8 @@ def contestants(with_py_pde=None):
     FTCS, every pair of stencil and Runge-Kutta step, the reference, scipy's ``solve_ivp`` on the same right-hand side
     and, where it is installed and unless ``with_py_pde`` is false, py-pde.
     """
+    if with_py_pde and not find_spec("pde"):
+        raise ModuleNotFoundError('py-pde is not here: python -m pip install "illposed-primer[bench]" brings it')
     compiled(KERNEL)  # else ftcs would march short runs in NumPy, rather than wait for the compiler
     doubling = tuple(25 * 2**k for k in range(8))
     spaces = {

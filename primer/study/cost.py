@@ -7,10 +7,11 @@ from functools import partial
 
 import numpy as np
 
-from primer.checks import integer, real
+from primer.checks import instance, integer, real, sequence
 from primer.problems.toy import Toy
+from primer.schemes.grid import grids
 from primer.schemes.reference import reference
-from primer.study.contestants import contestants
+from primer.study.contestants import Method, contestants
 
 _AT_LEAST = 0.05  # seconds over which short runs are repeated
 
@@ -77,12 +78,13 @@ def work_precision(toy=None, t_end=5.0, methods=None, patience=1.0, repeats=5):
     >>> print(found.methods, found.points[0].n, f"{found.points[0].error:.4f}")
     ('FTCS',) 25 0.0146
     """
-    toy = Toy(1.5) if toy is None else toy
+    toy = Toy(1.5) if toy is None else instance("toy", toy, Toy)
     t_end, patience = real("t_end", t_end, above=0), real("patience", patience, above=0)
-    repeats = integer("repeats", repeats, least=1)
+    repeats = integer("repeats", repeats, least=1, most=10_000)
+    methods = _methods(contestants() if methods is None else methods)
     truth = reference(toy, t_end, tol=1e-13 * (abs(toy.a) + 2))
     points = []
-    for method in contestants() if methods is None else methods:
+    for method in methods:
         for knob in method.knobs:
             seconds, (x, fields, dt) = clock(partial(method.march, toy, knob, t_end), patience, repeats)
             error = np.abs(np.array(fields) - [f[0] for f in truth.at(x)]).max()
@@ -120,8 +122,10 @@ def cost_against_n(toy=None, t_end=5.0, ns=(50, 100, 200, 400, 800, 1600, 3200),
     >>> [point.n for point in cost_against_n(ns=(20, 40), methods=[paper], seconds=1e-3)]
     [20, 40]
     """
-    toy, points = Toy(1.5) if toy is None else toy, []
-    for method in contestants(with_py_pde=False) if methods is None else methods:
+    toy, points = Toy(1.5) if toy is None else instance("toy", toy, Toy), []
+    t_end, seconds = real("t_end", t_end, above=0), real("seconds", seconds, above=0)
+    ns = grids("ns", sequence("ns", ns, "grids, such as [50, 100]"))
+    for method in _methods(contestants(with_py_pde=False) if methods is None else methods):
         for n in ns if method.by_points else ():
             span = min(t_end, 5.0 / n**2)
             while True:
@@ -131,6 +135,10 @@ def cost_against_n(toy=None, t_end=5.0, ns=(50, 100, 200, 400, 800, 1600, 3200),
                 span = min(t_end, 4 * span)
             points.append(Point(method.name, n, dt, math.nan, spent * t_end / span))
     return tuple(points)
+
+
+def _methods(methods):
+    return tuple(instance("methods", method, Method) for method in sequence("methods", methods, "Method"))
 
 
 def clock(run, patience, repeats):

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from primer.checks import integer, real, real_array
+from primer.checks import affordable, function, integer, real, real_array, shown
 from primer.schemes.grid import Grid
 
 
@@ -33,7 +33,10 @@ def fourth_derivative(t, beta):
 def march_back(data, multiplier):
     """Samples of the profile that ``data``, (..., n) samples on the periodic grid, has come from."""
     data = real_array("data", data)
-    n = data.shape[-1]
+    function("multiplier", multiplier, "the wavenumbers")
+    n = data.shape[-1] if data.ndim else 0
+    if n < 2:
+        raise ValueError(f"data must have shape (..., n) with n >= 2 samples, got {data.shape}")
     return np.fft.irfft(multiplier(np.arange(n // 2 + 1.0)) * np.fft.rfft(data), n)
 
 
@@ -80,7 +83,16 @@ def recover(regularise, parameters, noise, t=0.05, n=256, seed=0):
     seed           of the random noise; the same noise, to scale, at every level
     """
     t, noise, parameters = real("t", t, above=0), real_array("noise", noise), real_array("parameters", parameters)
-    grid = Grid(integer("n", n, least=4))
+    function("regularise", regularise, "t and the parameter")
+    if noise.ndim != 1 or parameters.ndim != 1 or not noise.size or not parameters.size or (noise < 0).any():
+        raise ValueError(
+            "noise and parameters must be non-empty sequences of numbers, the noise >= 0, "
+            f"got noise = {shown(noise)} and parameters = {shown(parameters)}"
+        )
+    grid, seed = Grid(n), integer("seed", seed, least=0)
+    if grid.n % 2:
+        raise ValueError(f"n must be even, got {grid.n}")
+    affordable("n, noise and parameters", 64 * grid.n * noise.size * parameters.size, f"n = {grid.n}")
     k = np.arange(grid.n // 2 + 1.0)
     profile = np.pi / 2 - np.abs(grid.x)
     data = march_back(profile, lambda k: np.exp(-(k**2) * t))

@@ -1,14 +1,17 @@
 """Which base states blow up on which grids: measured, cell by cell, in a table that a sweep can resume."""
 
 import math
-from concurrent.futures import Executor, as_completed
+import warnings
+from concurrent.futures import BrokenExecutor, Executor, as_completed
 from dataclasses import dataclass
 
 import numpy as np
 
-from primer.checks import integer, real, real_array, shown
+from primer.checks import real, real_array, sequence, shown
 from primer.problems.toy import Toy
 from primer.schemes.ensemble import ftcs_ensemble
+from primer.schemes.grid import grids
+from primer.schemes.record import plan
 from primer.schemes.run import Seed, Stop
 from primer.study.stability import OVERSHOOT, stable_dt
 from primer.study.table import Table
@@ -67,7 +70,7 @@ def blow_up_map(
     seed                  amplitude of the seed
     table                 a CSV file that keeps the cells; those it holds already are not marched again. It is written
                           after each grid, so that after Ctrl-C, which returns the map as far as it has come, or a
-                          crash, the same call goes on
+                          crash, the same call goes on. A grid whose worker fails is named in a warning
     executor              any ``concurrent.futures.Executor``, such as a process pool or
                           ``dask.distributed.Client.get_executor()``; left out, all cores of this machine
     progress              whether to show a progress bar, on a terminal
@@ -88,11 +91,13 @@ def blow_up_map(
            [False, False]])
     """
     a = _without_repeats("a_values", [real("a_values", x) for x in real_array("a_values", a_values).ravel().tolist()])
-    n = _without_repeats("n_values", [integer("n_values", x, least=4) for x in np.ravel(n_values).tolist()])
+    n = _without_repeats("n_values", grids("n_values", _listed(n_values)))
     eps, t_end, dt = Toy(0, eps).eps, real("t_end", t_end, least=0), real("dt", dt, above=0)
     seed = real("seed", seed, above=0)
     if executor is not None and not isinstance(executor, Executor):
         raise TypeError(f"executor must be a concurrent.futures.Executor or None, got {shown(executor)}")
+    for k in n:  # all is known to fit before anything is marched
+        plan(k, dt, t_end, 10**9, (), None, 1e3, np.float64, None).refuse_if_large(fields=2, members=len(a))
     steps = [map_step(a, k, eps, dt) for k in n]
     store = Table(table, {"eps": eps, "t_end": t_end, "seed": seed}, ("n", "dt", "a"), ("t_blow_up", "t_seeded"))
     columns = []
@@ -116,6 +121,10 @@ def map_step(a_values, n, eps, most=1e-3):
     return min(most, 0.9 * (math.pi / n) ** 2, 0.9 * stable_dt(Toy(0, eps), n, top))
 
 
+def _listed(values):
+    return sequence("n_values", values.ravel().tolist() if isinstance(values, np.ndarray) else values, "grids")
+
+
 def _without_repeats(name, values):
     if len(set(values)) < len(values):
         raise ValueError(f"{name} must be without repeats, got {shown(values)}")
@@ -131,20 +140,31 @@ def _march(columns, executor, store, progress):
             store.add(rows)
             bar.update(len(rows))
 
-        waiting = []
+        waiting, lost = {}, {}
         try:
             if executor is None:  # each column takes all cores
                 for column in columns:
                     keep(_column(*column))
             else:
-                waiting = [executor.submit(_column, *column) for column in columns]
+                for column in columns:
+                    try:
+                        waiting[executor.submit(_column, *column)] = column
+                    except BrokenExecutor as error:  # a worker has died already
+                        lost[column[1]] = error
                 for done in as_completed(waiting):
-                    keep(done.result())
+                    _, n, *_ = waiting[done]
+                    if (error := done.exception()) is None or isinstance(error, KeyboardInterrupt):
+                        keep(done.result())
+                    else:  # one grid's worker died, or ran out of memory: the others are worth keeping
+                        lost[n] = error
         except KeyboardInterrupt:
             bar.set_postfix_str("interrupted")
         finally:
             for future in waiting:
                 future.cancel()
+    if lost:
+        why = "; ".join(f"n = {n} ({type(error).__name__}: {error})" for n, error in sorted(lost.items()))
+        warnings.warn(f"not marched, and not a number in the map: {why}", RuntimeWarning, stacklevel=3)
 
 
 def _column(a, n, eps, dt, t_end, seed):

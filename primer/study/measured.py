@@ -7,6 +7,7 @@ from pathlib import Path
 
 from primer.problems.toy import Toy
 from primer.study.cost import Point, WorkPrecision, pareto
+from primer.study.table import written_whole
 
 
 def write(path, study, cost):
@@ -15,19 +16,30 @@ def write(path, study, cost):
     for name, points in (("points", study.points), ("cost", cost)):
         rows = [{key: _kept(value) for key, value in asdict(p).items() if key != "on_front"} for p in points]
         lines.append(f'"{name}": [\n  ' + ",\n  ".join(json.dumps(row, allow_nan=False) for row in rows) + "\n ]")
-    Path(path).write_text("{\n " + ",\n ".join(lines) + "\n}\n", encoding="utf-8")
+    with written_whole(path) as file:
+        file.write("{\n " + ",\n ".join(lines) + "\n}\n")
 
 
 def read(path):
-    """(WorkPrecision, points of cost_against_n) as they were kept; the front is found anew."""
-    stored = json.loads(Path(path).read_text(encoding="utf-8"))
-    points, cost = (
-        tuple(
-            Point(**{key: math.nan if value is None else value for key, value in row.items()}) for row in stored[name]
+    """(WorkPrecision, points of cost_against_n) as they were kept; the front is found anew.
+
+    Raises
+    ------
+    OSError, ValueError    if there is no such file, or it does not hold what ``write`` keeps
+    """
+    text = Path(path).read_bytes()
+    try:
+        stored = json.loads(text)
+        points, cost = (
+            tuple(
+                Point(**{key: math.nan if value is None else value for key, value in row.items()})
+                for row in stored[name]
+            )
+            for name in ("points", "cost")
         )
-        for name in ("points", "cost")
-    )
-    return WorkPrecision(Toy(stored["a"], stored["eps"]), stored["t_end"], pareto(points)), cost
+        return WorkPrecision(Toy(stored["a"], stored["eps"]), stored["t_end"], pareto(points)), cost
+    except (ValueError, TypeError, KeyError, AttributeError):
+        raise ValueError(f"path must be a file of measurements as write() keeps them, got {str(path)!r}") from None
 
 
 def _kept(value):

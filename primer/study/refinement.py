@@ -5,11 +5,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from primer.checks import integer, real, shown
+from primer.checks import real, sequence
 from primer.problems.heat import BackwardHeat
 from primer.schemes.discrete import amplification
 from primer.schemes.ftcs import ftcs
-from primer.schemes.grid import Grid
+from primer.schemes.grid import Grid, grids
 from primer.schemes.run import Run, Seed, Stop
 
 
@@ -54,15 +54,13 @@ def refine(problem, ns, dt=1e-3, seed=None, **options):
     """
 
     def at(n, value):
-        return value(n) if callable(value) and not isinstance(value, Seed) else value
+        return value(n) if callable(value) and not isinstance(value, Seed | type) else value
 
     return Refinement(tuple(ftcs(problem, n, at(n, dt), seed=at(n, seed), **options) for n in _grids(ns)))
 
 
 def _grids(ns):
-    if isinstance(ns, str) or not np.iterable(ns):
-        raise TypeError(f"ns must be a sequence of grids, such as [50, 100], got {shown(ns)}")
-    return tuple(ns)
+    return grids("ns", sequence("ns", ns, "grids, such as [50, 100]"))
 
 
 @dataclass(frozen=True, eq=False)
@@ -89,7 +87,7 @@ def heat_onset(ns, courant=0.02, tolerance=1e-2, sawtooth=0.0, t_end=None, snaps
     Parameters
     ----------
     ns               grids, of multiples of four points (so that pi/2, where sin x is largest, is a grid point)
-    courant          dt/h^2
+    courant          dt/h^2, from 1e-6 (millions of steps) to 1e6
     tolerance        the departure that counts as visible, where |u| is about 1
     sawtooth         amplitude of a stated seed (-1)^j; with 0 round-off is the only seed
     t_end            where the runs end, if they have not blown up; left out, when each grid has surely taken over
@@ -101,11 +99,11 @@ def heat_onset(ns, courant=0.02, tolerance=1e-2, sawtooth=0.0, t_end=None, snaps
     >>> print(f"{t[0] / t[1]:.1f}")
     4.0
     """
-    ns, courant = _grids(ns), real("courant", courant, above=0)
+    ns, courant = _grids(ns), real("courant", courant, least=1e-6, most=1e6)
     tolerance = real("tolerance", tolerance, least=1e-15, most=1)
     sawtooth = real("sawtooth", sawtooth, least=0, below=tolerance)
     for n in ns:
-        if integer("n", n, least=4) % 4:
+        if n % 4:
             raise ValueError(f"ns must be multiples of four points, got {n}")
     rate = math.log1p(4 * courant)
     steps = round(math.log(1e4 * tolerance / (sawtooth or 1e-18)) / rate)  # round-off starts near 1e-17

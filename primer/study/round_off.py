@@ -11,9 +11,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from primer.checks import instance, integer, real_array, sequence, shown
 from primer.problems.toy import Toy, tendency
 from primer.schemes.ftcs import ftcs
 from primer.schemes.grid import Grid
+from primer.schemes.record import plan
 from primer.schemes.run import Run, Seed, Stop
 from primer.study.spectrum import growth
 
@@ -34,6 +36,11 @@ def blow_up_time(run):
 
 def precision_ladder(toy, n, dt, t_end, precisions=tuple(PRECISIONS)):
     """{name: Run} of the same run in the arithmetics of ``PRECISIONS``. The last two are slow."""
+    instance("toy", toy, Toy)
+    precisions = sequence("precisions", precisions, "names")
+    for name in precisions:
+        if not isinstance(name, str) or name not in PRECISIONS:
+            raise ValueError(f"precisions must be of {', '.join(PRECISIONS)}, got {shown(name)}")
     return {name: ftcs(toy, n, dt, t_end, **PRECISIONS[name]) for name in precisions}
 
 
@@ -59,8 +66,11 @@ def seed_ladder(toy, n, dt, t_end, amplitudes, mode=None, field="v"):
     ------
     ValueError    if fewer than two of the runs blow up by t_end
     """
-    amplitudes = np.asarray(amplitudes, dtype=float)
-    mode = n // 2 - 1 if mode is None else mode
+    instance("toy", toy, Toy)
+    amplitudes = np.atleast_1d(real_array("amplitudes", amplitudes))
+    if amplitudes.ndim != 1 or amplitudes.size < 2 or (amplitudes <= 0).any():
+        raise ValueError(f"amplitudes must be a sequence of two or more numbers > 0, got {shown(amplitudes)}")
+    mode = Grid(n).n // 2 - 1 if mode is None else integer("mode", mode, least=0, most=Grid(n).n // 2)
     runs = tuple(ftcs(toy, n, dt, t_end, seed=Seed(mode, x, field)) for x in amplitudes.tolist())
     times = np.array([blow_up_time(run) for run in runs])
     lost = np.isfinite(times)
@@ -91,6 +101,8 @@ class Nudged:
 
 def one_ulp(toy, n, dt, t_end, points):
     """Blow-up times after moving the initial u at one of ``points`` (indices) by one unit in its last place."""
+    instance("toy", toy, Toy)
+    points = [integer("points", point, least=-Grid(n).n, most=n - 1) for point in sequence("points", points, "indices")]
     return np.array([blow_up_time(ftcs(Nudged(toy, point), n, dt, t_end)) for point in points])
 
 
@@ -101,13 +113,17 @@ def mirror_symmetric(toy, n, dt, t_end, blow_up_at=1e3):
     ``ftcs`` adds the left one last. Then rounding, too, keeps u even and v odd, and only the slower modes of that
     symmetry are left to grow.
     """
-    h, m = Grid(n).h, np.arange(n)
+    instance("toy", toy, Toy)
+    asked = plan(n, dt, t_end, 10**9, (), None, blow_up_at, np.float64, None)
+    asked.refuse_if_large(fields=2)
+    n, dt, steps, blow_up_at = asked.grid.n, asked.dt, asked.steps, asked.blow_up_at
+    h, m = asked.grid.h, np.arange(n)
     half = np.minimum(m, n - m)  # points from x = -pi, on either side
     sin_x = np.where(m <= n - m, -1.0, 1.0) * np.sin(h * half) * (2 * half != n)
     u, v = np.full(n, toy.a), -sin_x / 2
     steady = toy.a + np.cos(h * half)
     r1, r2 = 1 / (2 * h), 1 / (h * h)
-    for step in range(round(t_end / dt)):
+    for step in range(steps):
         if not np.max((u - steady) ** 2 + v**2) <= blow_up_at**2:
             return step * dt
         (u_right, v_right), (u_left, v_left) = (np.roll((u, v), shift, axis=1) for shift in (-1, 1))

@@ -23,9 +23,12 @@ from enum import StrEnum
 
 import numpy as np
 
+from primer.checks import affordable, instance, real
+from primer.problems.toy import Toy
 from primer.schemes.discrete import discrete_steady
 from primer.schemes.grid import Grid
 
+_BYTES = 600  # for each point, of the 31 complex vectors of a search
 _DENSE = 100  # points up to which all eigenvalues cost less than a few of them
 
 
@@ -73,7 +76,9 @@ class Mode:
 
 def jacobian(toy, n, state=None):
     """The (2n, 2n) Jacobian of the semi-discrete system, u first, about ``state``, by default its steady state."""
+    instance("toy", toy, Toy)
     grid = Grid(n)
+    affordable("n: the Jacobian", 80 * grid.n**2, f"n = {grid.n}")
     u, v = discrete_steady(toy, grid.x, grid.h) if state is None else state
     d1, d2 = (grid.derivative(np.eye(grid.n), m).T for m in (1, 2))
     v_xx = grid.derivative(np.asarray(v, dtype=float), 2)
@@ -83,6 +88,7 @@ def jacobian(toy, n, state=None):
 
 def depth(toy, n):
     """Q = 4 eps (c - a)/h^2 - 1: the frozen growth of the sawtooth of v at x = 0; nothing grows unless Q > 0."""
+    instance("toy", toy, Toy)
     h = Grid(n).h
     return 4 * toy.eps * (h / math.sin(h) - toy.a) / h**2 - 1
 
@@ -92,6 +98,9 @@ def fastest(toy, n, dt=0.0):
 
     With dt = 0 time is continuous. A mode that grows with dt but not without it is of the scheme.
     """
+    instance("toy", toy, Toy)
+    n, dt = Grid(n).n, real("dt", dt, least=0)
+    affordable("n: the search for eigenvalues", _BYTES * n, f"n = {n}")
     found = (_rightmost(toy, n, parity, dt) for parity in Parity)
     lam, parity, y = max(found, key=lambda mode: rate(mode[0], dt))
     grid, (k, s, _, _) = Grid(n), _form(toy, n, parity)
@@ -113,6 +122,9 @@ def fastest(toy, n, dt=0.0):
 
 def growth(toy, n, dt=0.0):
     """The :func:`rate` of the :func:`fastest` mode. Dimensionless."""
+    instance("toy", toy, Toy)
+    n, dt = Grid(n).n, real("dt", dt, least=0)
+    affordable("n: the search for eigenvalues", _BYTES * n, f"n = {n}")
     return max(float(rate(_rightmost(toy, n, parity, dt)[0], dt)) for parity in Parity)
 
 

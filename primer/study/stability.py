@@ -17,7 +17,8 @@ import math
 
 import numpy as np
 
-from primer.checks import real, real_array
+from primer.checks import instance, real, real_array, shown
+from primer.problems.toy import Toy
 from primer.schemes.discrete import amplification
 from primer.schemes.grid import Grid
 
@@ -66,7 +67,10 @@ def stable_dt(toy, n, u=None):
     >>> stable_dt(Toy(0.5), n=200)  # no dt will do
     0.0
     """
+    instance("toy", toy, Toy)
     values = real_array("u", u if u is not None else toy.a + np.array([-OVERSHOOT, OVERSHOOT]))
+    if not values.size:
+        raise ValueError(f"u must hold at least one number, got {shown(u)}")
     # Both bounds are monotonic in u: the least and the greatest u decide.
     return float(np.min(frozen_dt(Grid(n).h, np.array([values.min(), values.max()]), toy.eps)))
 
@@ -77,6 +81,7 @@ def amplification_over_modes(toy, n, dt, u):
     A value over 1 that goes down to 1 and below as dt is halved is numerical instability; one whose logarithm per unit
     time tends to Re lam > 0 is ill-posedness.
     """
+    instance("toy", toy, Toy)
     grid = Grid(n)
     k = np.arange(grid.n // 2 + 1)
     symbol = toy.symbol(k.astype(float), np.float64(real("u", u)), multiplier=grid.multiplier)
