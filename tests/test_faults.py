@@ -257,6 +257,7 @@ def _fails(a, n, *rest):
 _column = sys.modules["primer.study.maps"]._column
 
 
+@posix
 @pytest.mark.parametrize("column", [_fails, _dies])
 def test_a_worker_that_dies_costs_its_own_grid(whole, column, tmp_path, monkeypatch):
     path = tmp_path / "map.csv"
