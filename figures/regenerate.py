@@ -10,8 +10,10 @@ import signal
 import sys
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from importlib import import_module
+from multiprocessing import parent_process
 from pathlib import Path
 from tempfile import TemporaryDirectory
+from threading import Thread
 
 import sidecar
 from tqdm import tqdm
@@ -35,7 +37,7 @@ def main(arguments=None):
         return 0
     job, tell = (_check, "checked") if options.check else (_make, "written")
     problems = []
-    with ProcessPoolExecutor(min(options.jobs, len(options.names)), initializer=_give_up_on_ctrl_c) as pool:
+    with ProcessPoolExecutor(min(options.jobs, len(options.names)), initializer=_as_a_worker) as pool:
         waiting = {pool.submit(job, name, options.out, options.formats): name for name in options.names}
         try:
             with tqdm(total=len(waiting), unit="figure", disable=None) as bar:
@@ -58,9 +60,14 @@ def main(arguments=None):
     return 1 if problems else 0
 
 
-def _give_up_on_ctrl_c():
-    """In a worker: a sweep takes Ctrl-C for the wish to see what there is, but half a sweep makes no figure."""
+def _as_a_worker():
+    """End with Ctrl-C, and with the process that waits for the figures.
+
+    A sweep takes Ctrl-C for the wish to see what there is, but half a sweep makes no figure; and a worker whose parent
+    was killed would wait for work for ever.
+    """
     signal.signal(signal.SIGINT, lambda *_: sys.exit(130))
+    Thread(target=lambda: (parent_process().join(), os._exit(1)), daemon=True).start()
 
 
 def _make(name, out, formats):
