@@ -66,10 +66,10 @@ class Number:
         wide = {"layout": widgets.Layout(flex="1 1 12em", min_width="12em"), "style": {"description_width": _LABEL}}
         if self.log:
             ends = {"min": math.log10(self.low), "max": math.log10(self.high), "step": self.step}
-            slider = widgets.FloatLogSlider(self.default, **ends, **common, **wide)
+            slider = widgets.FloatLogSlider(self._place(self.default), **ends, **common, **wide)
         else:
             sort = widgets.IntSlider if self.whole else widgets.FloatSlider
-            slider = sort(self.default, min=self.low, max=self.high, step=self.step, **common, **wide)
+            slider = sort(self._place(self.default), min=self.low, max=self.high, step=self.step, **common, **wide)
         sort = widgets.IntText if self.whole else widgets.FloatText
         box = sort(self.default, continuous_update=False, layout=widgets.Layout(width=_BOX), tooltip=self.label)
         busy = []
@@ -79,7 +79,7 @@ class Number:
             try:
                 box.value = value
                 if math.isfinite(value):
-                    slider.value = min(max(value, self.low), self.high)
+                    slider.value = self._place(value)
             finally:
                 busy.pop()
 
@@ -102,6 +102,13 @@ class Number:
             play.observe(lambda change: moved({"new": self.low + self.step * change["new"]}), "value")
             parts.append(play)
         return Row(widgets.HBox(parts), lambda: box.value, show)
+
+    def _place(self, value):
+        """The nearest place on the slider: a browser moves it there from any other, and takes the box along."""
+        scale, back = (math.log10, lambda exponent: 10.0**exponent) if self.log else (float, type(self.default))
+        low, value = scale(self.low), scale(min(max(value, self.low), self.high))
+        place = back(low + round((value - low) / self.step) * self.step)
+        return min(max(place, self.low), self.high)
 
     def _rounded(self, value):
         """What a slider says, without the last digits of its arithmetic."""

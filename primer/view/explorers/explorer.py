@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from html import escape
+from threading import RLock
 from typing import ClassVar
 
 import ipywidgets as widgets
@@ -10,6 +11,9 @@ from primer.checks import shown
 from primer.view.explorers.controls import defaults, read_state, write_state
 from primer.view.explorers.picture import Picture
 from primer.view.explorers.snapshot import Snapshot, still
+
+# A notebook may call back from a thread of its own while a cell still draws, and matplotlib draws one thing at a time.
+_DRAWING = RLock()
 
 
 class Explorer:
@@ -109,6 +113,7 @@ class Explorer:
     def _update(self):
         """Answer, draw and say; whatever goes wrong is said too, since nobody sees an exception in a callback."""
         asked, looks = self._parted(self.values)
+        _DRAWING.acquire()
         try:
             if asked != self._asked:
                 self._asked = None
@@ -119,6 +124,8 @@ class Explorer:
             self._image.value = png  # last: who sees the picture can read what it says
         except Exception as error:
             self._say(str(error) or type(error).__name__, wrong=True)
+        finally:
+            _DRAWING.release()
 
     def _say(self, text, wrong=False):
         self.verdict = text
