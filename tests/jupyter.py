@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -135,6 +136,19 @@ class Box:
         """The number box beside it."""
         row = self.box.locator(".widget-hbox", has=self.page.locator(".widget-inline-hbox", has_text=label))
         return row.last.locator("input[type=number]")
+
+    def press(self, button):
+        """Click a preset, or reset."""
+        self.box.locator("button", has_text=re.compile(rf"^\s*{re.escape(button)}\s*$")).click()
+
+    def wait_until(self, role, said):
+        """Until the verdict has the role (``status``, or ``alert`` where something is wrong) and says so."""
+        verdict = "box.querySelector('.primer-verdict')"
+        self.page.wait_for_function(
+            f"([box, role, said]) => {verdict}.getAttribute('role') === role && {verdict}.textContent.includes(said)",
+            arg=[self.box.element_handle(), role, said],
+            timeout=20_000,
+        )
 
     def step(self, act):
         """Seconds from an act of the reader to a new picture on the page."""

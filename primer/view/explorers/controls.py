@@ -84,7 +84,7 @@ class Number:
                 busy.pop()
 
         def moved(change):
-            if not busy:
+            if not busy and self._notch(change["new"]) != self._notch(box.value):
                 show(change["new"] if self.whole else self._rounded(change["new"]))
                 changed()
 
@@ -104,11 +104,15 @@ class Number:
         return Row(widgets.HBox(parts), lambda: box.value, show)
 
     def _place(self, value):
-        """The nearest place on the slider: a browser moves it there from any other, and takes the box along."""
+        """The nearest place on the slider: a browser moves it there from any other."""
         scale, back = (math.log10, lambda exponent: 10.0**exponent) if self.log else (float, type(self.default))
-        low, value = scale(self.low), scale(min(max(value, self.low), self.high))
-        place = back(low + round((value - low) / self.step) * self.step)
-        return min(max(place, self.low), self.high)
+        return min(max(back(scale(self.low) + self._notch(value) * self.step), self.low), self.high)
+
+    def _notch(self, value):
+        """The number of that place. A browser that says the same place in other last digits has moved nothing."""
+        scale = math.log10 if self.log else float
+        inside = min(max(self.low, value), self.high)  # in this order NaN is at the low end
+        return round((scale(inside) - scale(self.low)) / self.step)
 
     def _rounded(self, value):
         """What a slider says, without the last digits of its arithmetic."""
