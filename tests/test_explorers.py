@@ -10,7 +10,7 @@ from matplotlib.image import imread
 
 from primer.view import explorers
 from primer.view.explorers.controls import Choice, Line, Number
-from primer.view.explorers.picture import Picture
+from primer.view.picture import Picture
 
 EXPLORERS = [getattr(explorers, name) for name in explorers.__all__]
 every = pytest.mark.parametrize("explorer", EXPLORERS, ids=lambda explorer: explorer.__name__)

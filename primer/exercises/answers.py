@@ -1,9 +1,9 @@
-"""What a checker says, and how a number is compared."""
+"""What a checker says, how a number is compared, and a choice."""
 
 from dataclasses import dataclass
 from random import Random
 
-from primer.checks import integer, real
+from primer.checks import integer, real, shown
 
 
 @dataclass(frozen=True)
@@ -46,6 +46,22 @@ def check(answer, truth, praise, slips, hint, rtol=0.01):
         if _near(answer, wrong, rtol):
             return Feedback(False, said)
     return Feedback(False, hint)
+
+
+def choose(answer, truth, praise, hints):
+    """``Feedback`` on one of a few texts; ``hints`` maps each of the others to what to think of.
+
+    Raises
+    ------
+    TypeError     if answer is not a text
+    ValueError    if it is none of those to choose from
+    """
+    options = sorted([truth, *hints])
+    if not isinstance(answer, str):
+        raise TypeError(f"answer must be one of {', '.join(map(repr, options))}, got {shown(answer)}")
+    if answer not in options:
+        raise ValueError(f"answer must be one of {', '.join(map(repr, options))}, got {shown(answer)}")
+    return Feedback(True, praise) if answer == truth else Feedback(False, hints[answer])
 
 
 def _near(answer, value, rtol):

@@ -9,8 +9,9 @@ import ipywidgets as widgets
 
 from primer.checks import shown
 from primer.view.explorers.controls import defaults, read_state, write_state
-from primer.view.explorers.picture import Picture
-from primer.view.explorers.snapshot import Snapshot, still
+from primer.view.explorers.snapshot import Snapshot
+from primer.view.picture import Picture
+from primer.view.still import render
 
 # A notebook may call back from a thread of its own while a cell still draws, and matplotlib draws one thing at a time.
 _DRAWING = RLock()
@@ -67,7 +68,8 @@ class Explorer:
         values = read_state(cls._all(), state) | cls._known(values)
         asked, looks = cls._parted(values)
         answer = cls.answer(**asked)
-        return Snapshot(write_state(cls._all(), values), answer.verdict, still(cls.layout, cls.draw, answer, looks))
+        png = render(cls.layout, lambda axes: cls.draw(axes, answer, **looks))
+        return Snapshot(answer.verdict, png, write_state(cls._all(), values))
 
     @property
     def values(self):

@@ -1,0 +1,57 @@
+"""Still pictures for notebooks: drawn by the figures' functions, with words for who does not see them."""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from primer.view.picture import png
+from primer.view.style import new_figure, styled
+
+_DPI = 110
+
+
+@dataclass(frozen=True)
+class Still:
+    """A picture, and in words what it shows."""
+
+    alt: str
+    png: bytes = field(repr=False)
+
+    def __str__(self):
+        return self.alt
+
+    def _repr_mimebundle_(self, **_):
+        return {"image/png": self.png, "text/plain": str(self)}, {"image/png": {"alt": self.alt}}
+
+
+def still(alt, *panels, height=3.4, width=None):
+    """Panels side by side, each ``(draw, *arguments)`` or, with keywords, ``(draw, *arguments, {"label": ...})``.
+
+    ``draw(ax, *arguments, **keywords)`` is any of the ``draw_*`` functions; ``alt`` says in words what there is to see.
+
+    Raises
+    ------
+    TypeError    if a panel does not begin with a function
+    """
+    for panel in panels:
+        if not isinstance(panel, tuple) or not panel or not callable(panel[0]):
+            raise TypeError(f"each of panels must be (draw, *arguments), got {type(panel).__name__}")
+
+    def draw(axes):
+        for ax, (function, *arguments) in zip(axes, panels, strict=True):
+            keywords = arguments.pop() if arguments and isinstance(arguments[-1], dict) else {}
+            function(ax, *arguments, **keywords)
+
+    return Still(
+        str(alt), render({"columns": len(panels), "width": width or 1 + 4.0 * len(panels), "height": height}, draw)
+    )
+
+
+def render(layout, draw):
+    """A picture as bytes of a PNG, at the resolution of a page; ``draw(axes)`` draws on ``new_figure(**layout)``."""
+    with styled():
+        figure, axes = new_figure(**layout)
+        figure.set_dpi(_DPI)
+        draw(np.ravel(axes))
+        figure.canvas.draw()
+    return png(figure.canvas, compress_level=9)
