@@ -69,16 +69,31 @@ def test_notebook_03_answers_to_the_keyboard_and_to_the_number_box(open_notebook
     notebook.page.close()
 
 
+def test_time_plays(gallery):
+    """Without a hand on it, t goes on and the picture with it, until it is stopped."""
+    shown = gallery.explorer(explorers.__all__.index("HeatExplorer"))
+    shown.press("reset")
+    play, begun, seen = shown.box.locator(".widget-play button").first, float(shown.number("time t").input_value()), []
+    for _ in range(4):
+        seen.append(shown.step(play.click if not seen else lambda: None))
+    play.click()
+    assert float(shown.number("time t").input_value()) != begun
+    gallery.page.wait_for_timeout(500)
+    stopped = shown.picture
+    gallery.page.wait_for_timeout(500)
+    assert shown.picture == stopped
+    assert not gallery.errors
+
+
 @pytest.mark.parametrize("name", explorers.__all__)
-def test_every_explorer_answers(gallery, name, capsys):
+def test_every_explorer_answers(gallery, name, measured):
     shown, kind = gallery.explorer(explorers.__all__.index(name)), getattr(explorers, name)
     begun = shown.verdict
     control = next(control for control in kind.controls if isinstance(control, Number))
     shown.slider(control.label)
     keys = itertools.islice(itertools.cycle(("ArrowRight", "ArrowRight", "ArrowLeft", "ArrowLeft")), _STEPS)
     seconds = [shown.step(lambda key=key: gallery.page.keyboard.press(key)) for key in keys]
-    with capsys.disabled():
-        print(f"\n{name}: a step of {control.name} is on the page after {statistics.median(seconds):.3f} s (median)")
+    measured(f"{name}: a step of {control.name} is on the page after {statistics.median(seconds):.3f} s (median)")
     box = shown.number(control.label)
     box.fill("-1e9")
     box.press("Enter")

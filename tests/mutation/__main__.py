@@ -37,7 +37,16 @@ def face(known, file, number, first, last, cap):
     os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
     os.dup2(1, 2)
     sys.meta_path.insert(0, Spoil(file, number))
-    options = ["-x", "-p", "no:cacheprovider", "-p", "_hypothesis_pytestplugin", "--hypothesis-seed=0"]
+    options = [
+        "-x",
+        "-o",
+        "addopts=-q",
+        "-p",
+        "no:cacheprovider",
+        "-p",
+        "_hypothesis_pytestplugin",
+        "--hypothesis-seed=0",
+    ]
     with tempfile.TemporaryDirectory() as cache:
         if file.endswith(COMPILED):
             importlib.import_module("numba").config.CACHE_DIR = cache
@@ -117,7 +126,8 @@ def main():
         import pytest
 
         watch = Watch()
-        pytest.main(["-m", "not slow", "-p", "no:cacheprovider", "--hypothesis-seed=0", *chosen.tests], plugins=[watch])
+        options = ["-o", "addopts=-q", "-m", "not slow", "-p", "no:cacheprovider", "--hypothesis-seed=0"]
+        pytest.main([*options, *chosen.tests], plugins=[watch])
         chosen.map.write_text(json.dumps(watch.known(known)))
     elif chosen.action == "run":
         run(known, chosen.results, chosen)
