@@ -154,9 +154,11 @@ def draw_measured(ax, noises, c, color, ls):
     ax.tick_params(labelsize=8)
 
 
-def draw_routes(ax, routes):
+def draw_routes(ax, routes, legend=False):
     """Error of lambda_3 against |xi| for each way of computing eigenvalues; one line style and marker a way."""
     styles = zip(routes.names, ("o-", "s--", "^-.", "D:", "v-"), strict=False)
     for (name, style), error in zip(styles, routes.errors, strict=True):
         ax.loglog(routes.k, np.maximum(error, 1e-17), style, ms=4, label=name)
     ax.set(xlabel=r"$|\xi|\, d$", ylabel=r"relative error of $\lambda_3$")
+    if legend:
+        ax.legend(loc="upper center", fontsize=8.5)
