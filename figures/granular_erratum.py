@@ -5,7 +5,7 @@ from sidecar import close
 
 from primer.granular import CIDR, CSSM, EXAMPLE_COMPACTION, GLASS_BEADS, BaseState, coefficients
 from primer.granular.proof import chi, chi_as_printed, det_MN
-from primer.view.granular import draw_determinant, draw_erratum
+from primer.view.granular import draw_cross_terms, draw_determinants
 from primer.view.style import new_figure
 
 I, PHI, RATIO = 0.1, 0.55, 0.2
@@ -35,17 +35,8 @@ def draw(pair):
         height=4.2,
         title=f"Equation (42b) and its factor A   (I = {I:g}, φ = {PHI:g}, p/C = {RATIO:g}; glass beads)",
     )
-    for c, name, color, ls in zip(pair, ("CSSM, A = 0", "CIDR"), ("#CC79A7", "#0072B2"), ("-.", "-"), strict=True):
-        draw_erratum(left, c, name, color, ls)
-        draw_determinant(right, c, name, color, ls)
-    left.set(
-        title=r"(a) cross terms $\chi$, over $|\xi|^4 t^2$; as printed, over $|\xi|^4 t$",
-        ylabel=r"$\chi(M, N)$",
-        ylim=(-0.4, 7.5),
-    )
-    left.legend(loc="upper center", fontsize=8.5, ncols=2)
-    right.set(title=r"(b) $\det(M+N)$ over $|\xi|^4 t/\Gamma$", ylabel=r"$\det(M+N)$", ylim=(-0.15, 2.2))
-    right.legend(loc="upper center", fontsize=8.5)
-    text = "○ bad directions (e44): zero in CSSM,\nlifted by A > 0 in CIDR"
-    right.annotate(text, (0.5, 0.6), xycoords="axes fraction", ha="center", fontsize=8.5)
+    looks = ("CSSM, A = 0", "#CC79A7", "-."), ("CIDR", "#0072B2", "-")
+    rows = [(c, *look) for c, look in zip(pair, looks, strict=True)]
+    draw_cross_terms(left, rows)
+    draw_determinants(right, rows)
     return figure

@@ -16,7 +16,7 @@ from primer.granular import (
     verdict,
 )
 from primer.granular.fastest import fastest
-from primer.view.granular_growth import draw_growth, draw_polar, look
+from primer.view.granular_growth import draw_laws, draw_polar, look
 from primer.view.style import STEADY, new_figure
 
 I, PHI, RATIO = 0.01, 0.55, 0.37
@@ -60,15 +60,8 @@ def draw(rows):
     for ax in axes[1]:
         ax.remove()
     ax = figure.add_subplot(2, 1, 2)
-    for law, c, v, limit in rows:
-        name, color, ls = look(law)
-        text = f"{name}: {v.kind}, " + (
-            rf"$\sim |\xi|^{{{v.exponent}}}$" if v.kind == "ill-posed" else rf"bounded by {limit:.3g} $\|D\|$"
-        )
-        draw_growth(ax, c, K, text, color, ls)
+    draw_laws(ax, rows, K)
     ax.axvline(2 * np.pi, color=STEADY, lw=1, ls=":")
     ax.annotate("wavelength = one grain", (2 * np.pi, 0.03), xycoords=("data", "axes fraction"), xytext=(4, 0),
                 textcoords="offset points", fontsize=8.5, color=STEADY)  # fmt: skip
-    ax.set(title="largest growth over all directions", xlim=(K[0], K[-1]))
-    ax.legend(loc="upper left")
     return figure

@@ -13,7 +13,7 @@ from primer.granular import (
     coefficients,
 )
 from primer.granular.noise import noise_after
-from primer.view.granular_growth import draw_measured, draw_noise, gain_text, look
+from primer.view.granular_growth import draw_measured, draw_noise, look
 from primer.view.style import new_figure
 
 I, PHI, RATIO = 0.01, 0.55, 0.37
@@ -55,7 +55,6 @@ def draw(rows):
         name, color, ls = look(law)
         for ax, noise in zip(row, noises, strict=False):
             draw_noise(ax, noise)
-            ax.set_title(f"{noise.n}²: noise {gain_text(noise.gain)}", fontsize=9.5)
         row[0].set_ylabel(name, fontsize=12)
         draw_measured(row[3], noises, c, color, ls)
         row[3].set_ylabel(r"growth rate$\,/\,\|D\|$", fontsize=8.5)

@@ -3,6 +3,27 @@
 Another seed gives another student other numbers; without one everybody has those of the notebook.
 """
 
+from primer.exercises.cidr_theorem import ask_07_1, ask_07_2, ask_07_3, check_07_1, check_07_2, check_07_3
+from primer.exercises.granular_rheologies import ask_06_1, ask_06_2, ask_06_3, check_06_1, check_06_2, check_06_3
 from primer.exercises.grid_dependence import ask_03_1, ask_03_2, ask_03_3, check_03_1, check_03_2, check_03_3
 
-__all__ = ["ask_03_1", "ask_03_2", "ask_03_3", "check_03_1", "check_03_2", "check_03_3"]
+__all__ = [
+    "ask_03_1",
+    "ask_03_2",
+    "ask_03_3",
+    "ask_06_1",
+    "ask_06_2",
+    "ask_06_3",
+    "ask_07_1",
+    "ask_07_2",
+    "ask_07_3",
+    "check_03_1",
+    "check_03_2",
+    "check_03_3",
+    "check_06_1",
+    "check_06_2",
+    "check_06_3",
+    "check_07_1",
+    "check_07_2",
+    "check_07_3",
+]

@@ -3,7 +3,8 @@
 import numpy as np
 from matplotlib.patches import Polygon
 
-from primer.granular.proof import chi, chi_as_printed
+from primer.granular.dispersion import growth_rates
+from primer.granular.proof import bad_directions, chi, chi_as_printed, det_MN, lambda_3
 from primer.view.style import ILL, STEADY, U, V
 
 GREEN = "#009E73"
@@ -124,8 +125,6 @@ def draw_erratum(ax, c, label, color, ls="-"):
 
 def draw_determinant(ax, c, label, color, ls="-"):
     """det(M + N)/|xi|^4 in units of t/Gamma over direction, with the bad directions (e44) marked."""
-    from primer.granular.proof import bad_directions, det_MN
-
     theta = np.linspace(0, 180, 721)
     ax.plot(theta, det_MN(c, np.cos(2 * np.radians(theta))) * c.Gamma / c.t, color=color, ls=ls, label=label)
     xi = bad_directions(c)
@@ -133,6 +132,41 @@ def draw_determinant(ax, c, label, color, ls="-"):
         ax.plot(angle, det_MN(c, np.cos(2 * np.radians(angle))) * c.Gamma / c.t, "o", color=color, mfc="white")
     ax.axhspan(-1, 0, color=ILL)
     ax.set(xlabel=r"direction of $\xi$ (degrees from the major axis)", xlim=(0, 180), xticks=[0, 45, 90, 135, 180])
+
+
+def draw_cross_terms(ax, rows):
+    """``draw_erratum`` for several laws, each row (coefficients, name, colour, line style)."""
+    for row in rows:
+        draw_erratum(ax, *row)
+    ax.set(
+        title=r"(a) cross terms $\chi$, over $|\xi|^4 t^2$; as printed, over $|\xi|^4 t$",
+        ylabel=r"$\chi(M, N)$",
+        ylim=(-0.4, 7.5),
+    )
+    ax.legend(loc="upper center", fontsize=8.5, ncols=2)
+
+
+def draw_determinants(ax, rows):
+    """``draw_determinant`` for several laws, each row (coefficients, name, colour, line style)."""
+    for row in rows:
+        draw_determinant(ax, *row)
+    ax.set(title=r"(b) $\det(M+N)$ over $|\xi|^4 t/\Gamma$", ylabel=r"$\det(M+N)$", ylim=(-0.15, 2.2))
+    ax.legend(loc="upper center", fontsize=8.5)
+    text = "○ bad directions (e44): zero in CSSM,\nlifted by A > 0 in CIDR"
+    ax.annotate(text, (0.5, 0.6), xycoords="axes fraction", ha="center", fontsize=8.5)
+
+
+def draw_third_root(ax, c, k):
+    """lambda_3 over direction, in units of ||D||: as |xi| -> infinity (line), and the least eigenvalue at k (marks)."""
+    theta = np.linspace(0, 90, 181)
+    ax.plot(theta, lambda_3(c, np.cos(2 * np.radians(theta))) / c.D, color="black", label=r"$|\xi| \to \infty$")
+    for value, marker in zip(k, "s^ov", strict=False):
+        rates = growth_rates(c, value, np.cos(2 * np.radians(theta[::10])))
+        small = np.take_along_axis(rates, np.abs(rates).argmin(axis=-1)[:, None], axis=-1)[:, 0].real
+        ax.plot(theta[::10], small / c.D, marker, ms=4.5, mfc="none", ls="", label=rf"$|\xi|\,d$ = {value:g}")
+    ax.axhline(0, color=STEADY, lw=0.8, ls=":")
+    ax.set(xlabel=r"direction of $\xi$ (degrees from the major axis)", ylabel=r"$\lambda_3/\|D\|$", xlim=(0, 90))
+    ax.legend()
 
 
 def _turn(angle):

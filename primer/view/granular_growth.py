@@ -65,6 +65,36 @@ def draw_growth(ax, c, k, name, color, ls):
     return rate / c.D
 
 
+def draw_laws(ax, rows, k):
+    """``draw_growth`` for several laws, each row (law, coefficients, verdict, limit in units of ||D||)."""
+    for law, c, found, limit in rows:
+        name, color, ls = look(law)
+        power = rf"$\sim |\xi|^{{{found.exponent}}}$"
+        ending = power if found.kind == "ill-posed" else rf"bounded by {limit:.3g} $\|D\|$"
+        draw_growth(ax, c, k, f"{name}: {found.kind}, {ending}", color, ls)
+    ax.set(title="largest growth over all directions", xlim=(k[0], k[-1]))
+    ax.legend(loc="upper left")
+
+
+def draw_window(ax, c, k, degrees, step=1.0):
+    """Growth over a few directions, in units of ||D||, one line for each |xi|; dots: what a scan by ``step`` sees.
+
+    degrees = (low, high), from the major compressive axis.
+    """
+    fine = np.linspace(*degrees, 2001)
+    coarse = np.arange(np.ceil(degrees[0] / step), np.floor(degrees[1] / step) + 1) * step
+    for value, ls in zip(k, ("-", "--", "-.", ":"), strict=False):
+        (line,) = ax.plot(fine, _rate(c, value, fine), ls=ls, label=rf"$|\xi|\,d$ = {value:,.0f}")
+        ax.plot(coarse, _rate(c, value, coarse), "o", ms=5, color=line.get_color(), mec="black", clip_on=False)
+    ax.set(xlim=degrees, ylim=(0, None), ylabel=r"growth rate$\,/\,\|D\|$")
+    ax.set(xlabel=r"direction of $\xi$ (degrees from the major axis)", title=f"dots: a scan by {step:g}°")
+    ax.legend(loc="upper right")
+
+
+def _rate(c, k, degrees):
+    return growth_rate(c, k, np.cos(2 * np.radians(degrees))) / c.D
+
+
 def classify(low, high):
     """From maps at two wavenumbers, 0 to 3 as in KINDS, nan outside: how the growth changes from one to the other."""
     kind = np.where(low.growth > 0, 1.0, 0.0)
@@ -96,6 +126,7 @@ def draw_noise(ax, noise):
     top = np.abs(u).max()
     ax.imshow(u.T / top, origin="lower", cmap="RdBu_r", vmin=-1, vmax=1, interpolation="nearest", extent=(0, 1, 0, 1))
     ax.set(xticks=[], yticks=[])
+    ax.set_title(f"{noise.n}²: noise {gain_text(noise.gain)}", fontsize=9.5)
     ax.grid(False)
 
 
@@ -123,9 +154,11 @@ def draw_measured(ax, noises, c, color, ls):
     ax.tick_params(labelsize=8)
 
 
-def draw_routes(ax, routes):
+def draw_routes(ax, routes, legend=False):
     """Error of lambda_3 against |xi| for each way of computing eigenvalues; one line style and marker a way."""
     styles = zip(routes.names, ("o-", "s--", "^-.", "D:", "v-"), strict=False)
     for (name, style), error in zip(styles, routes.errors, strict=True):
         ax.loglog(routes.k, np.maximum(error, 1e-17), style, ms=4, label=name)
     ax.set(xlabel=r"$|\xi|\, d$", ylabel=r"relative error of $\lambda_3$")
+    if legend:
+        ax.legend(loc="upper center", fontsize=8.5)
