@@ -1,4 +1,4 @@
-"""What all tests share: notebooks that count as slow, one thread for each process, and measured times said at the end."""
+"""What all tests share: notebooks count as slow, a process has one thread, measured times are said at the end."""
 
 import os
 
