@@ -1,6 +1,7 @@
 """Regenerate the figures, each with a JSON of its numbers: ``python figures/regenerate.py [NAME ...]``.
 
-Movies are made on request, that is by name: as mp4 where ffmpeg is found, else as GIF.
+Some are made on request, that is by name: a movie, as mp4 where ffmpeg is found, else as GIF; and a page, as HTML,
+where Bokeh is installed.
 """
 
 import argparse
@@ -19,10 +20,16 @@ import sidecar
 from tqdm import tqdm
 
 from primer.view.movie import MOVIES, Movie, save_movie, writable
+from primer.view.page import Page, possible, save_page
 from primer.view.style import FORMATS, save, styled
 
 HERE = Path(__file__).resolve().parent
-ON_REQUEST = ["blow_up_movie"]  # too slow to draw each time
+ON_REQUEST = ["blow_up_movie", "explorer"]  # too slow to draw each time, or too large to keep
+PAGES = ["explorer"]
+_NEEDS = {
+    "blow_up_movie": "ffmpeg or Pillow to be written, and neither is here",
+    "explorer": "Bokeh, which the extra 'page' brings: python -m pip install -e \".[page]\"",
+}
 NAMES = sorted({path.stem for path in HERE.glob("*.py")} - {"regenerate", "sidecar", *ON_REQUEST})
 
 
@@ -75,12 +82,12 @@ def _make(name, out, formats):
     script = import_module(name)
     result = script.compute()
     with TemporaryDirectory(dir=out, prefix=".regenerate-") as aside, styled():
-        formats = formats or (writable()[:1] if name in ON_REQUEST else ["svg"])
+        formats = formats or _formats(name)[:1]
         files = [Path(aside, f"{name}.json"), *(Path(aside, f"{name}.{ending}") for ending in formats)]
         files[0].write_text(sidecar.dumps(script.numbers(result)), encoding="utf-8")
         for picture in files[1:]:
             drawn = script.draw(result)
-            (save_movie if isinstance(drawn, Movie) else save)(drawn, picture)
+            {Movie: save_movie, Page: save_page}.get(type(drawn), save)(drawn, picture)
         for file in files:
             os.replace(file, Path(out, file.name))
     return []
@@ -100,11 +107,18 @@ def _check(name, out, formats):
         return [f"no stored numbers to compare with ({name}.json holds no claims)"]
 
 
+def _formats(name):
+    """What a figure can be written as here, the default first."""
+    if name in PAGES:
+        return ("html",) if possible() else ()
+    return writable() if name in ON_REQUEST else FORMATS
+
+
 def _options(arguments):
     about = __doc__.replace("``", "")
     parser = argparse.ArgumentParser(prog="regenerate.py", description=about, allow_abbrev=False)
     parser.add_argument(
-        "names", nargs="*", metavar="NAME", help="figures to make (default: all but movies; see --list)"
+        "names", nargs="*", metavar="NAME", help="figures to make (default: all but those on request; see --list)"
     )
     parser.add_argument("--list", action="store_true", help="list the figures and what they show, and stop")
     parser.add_argument("--out", default=str(HERE), metavar="DIR", help="folder of the pictures (default: figures/)")
@@ -114,7 +128,7 @@ def _options(arguments):
     parser.add_argument(
         "--jobs", type=int, default=os.cpu_count() or 1, metavar="N", help="processes (default: all cores)"
     )
-    parser.add_argument("--formats", help=f"some of {','.join(FORMATS)} (default: svg), or of {','.join(MOVIES)}")
+    parser.add_argument("--formats", help=f"some of {','.join(FORMATS)} (default: svg), of {','.join(MOVIES)}, or html")
     options = parser.parse_args(arguments)
     for name in options.names:
         if name not in NAMES + ON_REQUEST:
@@ -122,14 +136,14 @@ def _options(arguments):
     options.names = list(dict.fromkeys(options.names)) or NAMES
     if options.jobs < 1:
         parser.error(f"--jobs must be >= 1, got {options.jobs}")
-    movies = [name for name in options.names if name in ON_REQUEST]
-    if movies and not writable() and not options.check:
-        parser.error(f"{movies[0]} needs ffmpeg or Pillow to be written, and neither is here")
+    for name in options.names:
+        if not (_formats(name) or options.check or options.list):
+            parser.error(f"{name} needs {_NEEDS[name]}")
     if options.formats is not None:
-        allowed = writable() if movies else FORMATS
+        special, allowed = [name for name in options.names if name in ON_REQUEST], _formats(options.names[0])
         options.formats = list(dict.fromkeys(options.formats.split(",")))
-        if movies and len(movies) < len(options.names):
-            parser.error(f"--formats of {movies[0]} are not those of figures: make it in a call of its own")
+        if any(_formats(name) != allowed for name in options.names):
+            parser.error(f"--formats of {special[0]} are not those of the others: make it in a call of its own")
         for ending in options.formats:
             if ending not in allowed:
                 parser.error(f"--formats must be some of {','.join(allowed)}, got {ending!r}")

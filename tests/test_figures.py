@@ -150,6 +150,8 @@ def test_list_names_every_figure():
         (["--formats", ""], "--formats must be some of svg,png,pdf, got ''"),
         (["blow_up_movie", "--formats", "svg"], "--formats must be some of"),
         (["blow_up_movie", "fig31", "--formats", "gif"], "make it in a call of its own"),
+        (["explorer", "--formats", "svg"], "--formats must be some of html, got 'svg'"),
+        (["explorer", "blow_up_movie", "--formats", "gif"], "make it in a call of its own"),
         (["fig31", "--formats", "gif"], "--formats must be some of svg,png,pdf, got 'gif'"),
         (["--out", __file__], "--out must be a folder that can be written"),
         (["--out", "/proc/nowhere"], "--out must be a folder that can be written"),

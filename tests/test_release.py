@@ -40,6 +40,7 @@ def built(tmp_path_factory):
 def ours(folder, pattern="*"):
     """What git would keep of a folder: not what running leaves behind."""
     left = {"__pycache__", ".ipynb_checkpoints", "artefacts"}
+    left |= {"explorer.html"}  # made on request
     paths = (p for p in (ROOT / folder).rglob(pattern) if p.is_file() and not left & set(p.parts))
     return {p.relative_to(ROOT).as_posix() for p in paths if p.suffix not in (".pyc", ".nbi", ".nbc", ".mp4")}
 
@@ -50,7 +51,7 @@ def test_the_wheel_holds_the_package_and_nothing_else(built):
     info = f"illposed_primer-{primer.__version__}.dist-info"
     course = {f"primer/{name}" for name in ours("notebooks")}
     assert {name for name in names if not name.startswith(info)} == ours("primer") | course
-    assert {"primer/claims.toml", "primer/view/primer.mplstyle"} <= names
+    assert {"primer/claims.toml", "primer/view/primer.mplstyle", "primer/view/page/page.html"} <= names
     assert {f"{info}/licenses/LICENSE", f"{info}/licenses/LICENSE-prose", f"{info}/entry_points.txt"} <= names
 
 

@@ -211,9 +211,10 @@ def _near(s, diagonal, off, shift, steps=30):
         y = zgttrs(*factors, right)[0]
         w = np.concatenate([(s * y[:r] - b_u) / shift, y])
         for _ in range(2):  # twice is enough to stay orthogonal
-            overlap = basis[: i + 1].conj() @ w
+            # Not by @: on products so small the threads of a BLAS can wait for each other far longer than they work.
+            overlap = np.einsum("ij,j->i", basis[: i + 1].conj(), w)
             H[: i + 1, i] += overlap
-            w -= overlap @ basis[: i + 1]
+            w -= np.einsum("i,ij->j", overlap, basis[: i + 1])
         H[i + 1, i] = np.linalg.norm(w)
         if H[i + 1, i] < 1e-13 * np.abs(H[: i + 1, i]).max():  # the space is invariant: all is found
             steps = i + 1
@@ -222,4 +223,4 @@ def _near(s, diagonal, off, shift, steps=30):
     mu, vectors = np.linalg.eig(H[:steps, :steps])
     good = np.abs(H[steps, steps - 1] * vectors[-1]) < 1e-9 * np.abs(mu)
     good[np.argmax(np.abs(mu))] = True  # the nearest one of all is the safest
-    return shift + 1 / mu[good], basis[:steps].T @ vectors[:, good]
+    return shift + 1 / mu[good], np.einsum("ik,ij->kj", basis[:steps], vectors[:, good])
