@@ -4,5 +4,17 @@ Another seed gives another student other numbers; without one everybody has thos
 """
 
 from primer.exercises.grid_dependence import ask_03_1, ask_03_2, ask_03_3, check_03_1, check_03_2, check_03_3
+from primer.exercises.start_here import ask_00_1, ask_00_2, check_00_1, check_00_2
 
-__all__ = ["ask_03_1", "ask_03_2", "ask_03_3", "check_03_1", "check_03_2", "check_03_3"]
+__all__ = [
+    "ask_00_1",
+    "ask_00_2",
+    "ask_03_1",
+    "ask_03_2",
+    "ask_03_3",
+    "check_00_1",
+    "check_00_2",
+    "check_03_1",
+    "check_03_2",
+    "check_03_3",
+]
