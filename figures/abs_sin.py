@@ -30,8 +30,8 @@ def numbers(result):
 
 def draw(result):
     figure, (left, right) = new_figure(title=r"Backward heat from $|\sin x|^p$: which initial data have a solution?")
-    draw_coefficients(left, {p: c for p, (c, _) in result.items()})
+    draw_coefficients(left, POWERS, [result[p][0] for p in POWERS])
     left.set(title="(a) Fourier coefficients")
-    draw_log_norms(right, {p: log_norm for p, (_, log_norm) in result.items()})
+    draw_log_norms(right, POWERS, [result[p][1] for p in POWERS])
     right.set(title=f"(b) squared norm at t = {T:g}, cut at n")
     return figure

@@ -37,9 +37,8 @@ def draw(sizes):
         title=r"Small data, large solutions: $\sup_x\,|\xi|^{-p}\,|\sin(\xi x)|\,e^{\xi^2 t}$", sharey=True
     )
     for ax, p, letter in zip(axes, POWERS, "ab", strict=True):
-        draw_modes(ax, XI, {t: sizes[p, t] for t in (0.0, *TIMES)}, p)
+        draw_modes(ax, XI, {t: sizes[p, t] for t in (0.0, *TIMES)}, p, legend=ax is axes[0])
         ax.set(title=f"({letter}) p = {p}")
         ax.label_outer()
     axes[0].set_ylabel("size of the mode")
-    axes[0].legend(title="dots: turn at $\\sqrt{p/2t}$")
     return figure

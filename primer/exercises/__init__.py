@@ -5,15 +5,22 @@ Another seed gives another student other numbers; without one everybody has thos
 
 from primer.exercises.grid_dependence import ask_03_1, ask_03_2, ask_03_3, check_03_1, check_03_2, check_03_3
 from primer.exercises.start_here import ask_00_1, ask_00_2, check_00_1, check_00_2
+from primer.exercises.what_ill_posed_means import ask_01_1, ask_01_2, ask_01_3, check_01_1, check_01_2, check_01_3
 
 __all__ = [
     "ask_00_1",
     "ask_00_2",
+    "ask_01_1",
+    "ask_01_2",
+    "ask_01_3",
     "ask_03_1",
     "ask_03_2",
     "ask_03_3",
     "check_00_1",
     "check_00_2",
+    "check_01_1",
+    "check_01_2",
+    "check_01_3",
     "check_03_1",
     "check_03_2",
     "check_03_3",
