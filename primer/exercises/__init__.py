@@ -5,6 +5,16 @@ Another seed gives another student other numbers; without one everybody has thos
 
 from primer.exercises.grid_dependence import ask_03_1, ask_03_2, ask_03_3, check_03_1, check_03_2, check_03_3
 from primer.exercises.start_here import ask_00_1, ask_00_2, check_00_1, check_00_2
+from primer.exercises.testing_a_pde import (
+    ask_02_1,
+    ask_02_2,
+    ask_02_3,
+    ask_02_4,
+    check_02_1,
+    check_02_2,
+    check_02_3,
+    check_02_4,
+)
 from primer.exercises.what_ill_posed_means import ask_01_1, ask_01_2, ask_01_3, check_01_1, check_01_2, check_01_3
 
 __all__ = [
@@ -13,6 +23,10 @@ __all__ = [
     "ask_01_1",
     "ask_01_2",
     "ask_01_3",
+    "ask_02_1",
+    "ask_02_2",
+    "ask_02_3",
+    "ask_02_4",
     "ask_03_1",
     "ask_03_2",
     "ask_03_3",
@@ -21,6 +35,10 @@ __all__ = [
     "check_01_1",
     "check_01_2",
     "check_01_3",
+    "check_02_1",
+    "check_02_2",
+    "check_02_3",
+    "check_02_4",
     "check_03_1",
     "check_03_2",
     "check_03_3",
