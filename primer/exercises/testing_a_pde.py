@@ -120,7 +120,7 @@ def _fourth(seed):
 
 def ask_02_4(seed=0):
     """The question: what an equation is."""
-    return f"By hand, then by verdict: is '{_fourth(seed)}' '{STABLE}', '{UNSTABLE}' or '{ILL}'?"
+    return f"By hand, then by verdict: is '{_fourth(seed)}': '{STABLE}', '{UNSTABLE}' or '{ILL}'?"
 
 
 def check_02_4(answer, seed=0):

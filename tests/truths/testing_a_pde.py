@@ -39,5 +39,5 @@ def truth_02_3(seed):
 
 def truth_02_4(seed):
     """From the verdict."""
-    found = verdict(re.search(r"is '(.*?)' '", exercises.ask_02_4(seed))[1])
+    found = verdict(re.search(r"is '(.*?)': '", exercises.ask_02_4(seed))[1])
     return ILL if found.kind == "ill-posed" else UNSTABLE if found.unstable else STABLE
