@@ -9,6 +9,7 @@ import numpy as np
 from sidecar import close, same
 
 from primer.problems.heat import abs_sin_coefficients, abs_sin_log_norms
+from primer.view.heat import draw_coefficients, draw_log_norms
 from primer.view.style import new_figure
 
 POWERS, T, M = (1, 2, 3, 4), 1e-3, 80  # wavenumbers up to 2 M
@@ -29,18 +30,8 @@ def numbers(result):
 
 def draw(result):
     figure, (left, right) = new_figure(title=r"Backward heat from $|\sin x|^p$: which initial data have a solution?")
-    n = 2 * np.arange(M + 1)
-    for (p, (c, log_norm)), ls, marker in zip(result.items(), ("-", "--", "-.", ":"), "os^D", strict=True):
-        shown = (n > 0) & (c != 0)
-        left.loglog(n[shown], np.abs(c[shown]), marker=marker, ms=3.5, ls="" if p % 2 == 0 else ls, label=f"p = {p}")
-        verdict = "ends, a solution" if p % 2 == 0 else "diverges, no solution"
-        right.plot(n, log_norm / np.log(10), ls=ls, label=f"p = {p}: {verdict}")
-    left.set(title="(a) Fourier coefficients", xlabel="n", ylabel="$|c_n|$")
-    left.legend()
-    right.set(
-        title=f"(b) squared norm at t = {T:g}, cut at n",
-        xlabel="n",
-        ylabel=r"$\log_{10}\ \sum e^{2n^2t}\,|c_n|^2$",
-    )
-    right.legend()
+    draw_coefficients(left, POWERS, [result[p][0] for p in POWERS])
+    left.set(title="(a) Fourier coefficients")
+    draw_log_norms(right, POWERS, [result[p][1] for p in POWERS])
+    right.set(title=f"(b) squared norm at t = {T:g}, cut at n")
     return figure

@@ -10,7 +10,8 @@ import numpy as np
 from sidecar import close
 
 from primer.problems.heat import scaled_amplitude
-from primer.view.style import STEADY, new_figure
+from primer.view.heat import draw_modes
+from primer.view.style import new_figure
 
 POWERS, TIMES = (2, 6), (0.1, 0.01, 0.001)
 XI = np.geomspace(1, 400, 2000)
@@ -36,13 +37,8 @@ def draw(sizes):
         title=r"Small data, large solutions: $\sup_x\,|\xi|^{-p}\,|\sin(\xi x)|\,e^{\xi^2 t}$", sharey=True
     )
     for ax, p, letter in zip(axes, POWERS, "ab", strict=True):
-        ax.loglog(XI, sizes[p, 0.0], color=STEADY, ls=":", label="t = 0")
-        for t, ls in zip(TIMES, ("-", "--", "-."), strict=True):
-            (line,) = ax.loglog(XI[: sizes[p, t].size], sizes[p, t], ls=ls, label=f"t = {t:g}")
-            turn = np.sqrt(p / (2 * t))
-            ax.plot(turn, turn**-p * np.exp(p / 2), "o", color=line.get_color())
-        ax.set(title=f"({letter}) p = {p}", xlabel=r"wavenumber $\xi$", xlim=(1, 400), ylim=(1e-16, 1e8))
+        draw_modes(ax, XI, {t: sizes[p, t] for t in (0.0, *TIMES)}, p, legend=ax is axes[0])
+        ax.set(title=f"({letter}) p = {p}")
         ax.label_outer()
     axes[0].set_ylabel("size of the mode")
-    axes[0].legend(title="dots: turn at $\\sqrt{p/2t}$")
     return figure

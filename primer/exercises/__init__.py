@@ -6,8 +6,29 @@ Another seed gives another student other numbers; without one everybody has thos
 from primer.exercises.cidr_theorem import ask_07_1, ask_07_2, ask_07_3, check_07_1, check_07_2, check_07_3
 from primer.exercises.granular_rheologies import ask_06_1, ask_06_2, ask_06_3, check_06_1, check_06_2, check_06_3
 from primer.exercises.grid_dependence import ask_03_1, ask_03_2, ask_03_3, check_03_1, check_03_2, check_03_3
+from primer.exercises.start_here import ask_00_1, ask_00_2, check_00_1, check_00_2
+from primer.exercises.testing_a_pde import (
+    ask_02_1,
+    ask_02_2,
+    ask_02_3,
+    ask_02_4,
+    check_02_1,
+    check_02_2,
+    check_02_3,
+    check_02_4,
+)
+from primer.exercises.what_ill_posed_means import ask_01_1, ask_01_2, ask_01_3, check_01_1, check_01_2, check_01_3
 
 __all__ = [
+    "ask_00_1",
+    "ask_00_2",
+    "ask_01_1",
+    "ask_01_2",
+    "ask_01_3",
+    "ask_02_1",
+    "ask_02_2",
+    "ask_02_3",
+    "ask_02_4",
     "ask_03_1",
     "ask_03_2",
     "ask_03_3",
@@ -17,6 +38,15 @@ __all__ = [
     "ask_07_1",
     "ask_07_2",
     "ask_07_3",
+    "check_00_1",
+    "check_00_2",
+    "check_01_1",
+    "check_01_2",
+    "check_01_3",
+    "check_02_1",
+    "check_02_2",
+    "check_02_3",
+    "check_02_4",
     "check_03_1",
     "check_03_2",
     "check_03_3",

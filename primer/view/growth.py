@@ -1,5 +1,7 @@
 """Pictures of growth rates against wavenumber."""
 
+from itertools import cycle
+
 from primer.view.style import ILL, STEADY
 
 
@@ -14,6 +16,17 @@ def draw_growth(ax, xi, rate, label=None, cut_off=None, **line):
         ax.axvline(cut_off, color=curve.get_color(), ls=":", lw=1, zorder=0)
     ax.set(xlabel=r"wavenumber $\xi$", ylabel=r"growth rate $\max\,\mathrm{Re}\,\lambda$")
     return curve
+
+
+def draw_rates(ax, xi, rates, reach):
+    """max Re lambda of several equations, ``rates[name]`` of the shape of xi, between -reach and reach; log scales."""
+    for (name, rate), ls in zip(rates.items(), cycle(("-", "--", "-.", ":"))):
+        draw_growth(ax, xi, rate, label=name, ls=ls)
+    ax.set_xscale("log")
+    ax.set_yscale("symlog", linthresh=1)
+    ax.set(xlim=(xi[0], xi[-1]), ylim=(-reach, reach))
+    shade_growing(ax, reach)
+    ax.legend(loc="upper left")
 
 
 def shade_growing(ax, top, text="perturbations grow"):
