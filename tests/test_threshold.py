@@ -70,10 +70,19 @@ def test_structured_search_finds_what_the_dense_one_does(monkeypatch):
     monkeypatch.setattr(spectrum, "_DENSE", 10**6)
     dense = [growth(*case) for case in cases]
     assert sum(g > 0 for g in dense) > 15
-    for a, b in zip(quick, dense, strict=True):
+    for (_, _, dt), a, b in zip(cases, quick, dense, strict=True):
         assert (a > 0) == (b > 0)
-        if b > 0:
+        if b > 0 or dt == 0:
             assert a == pytest.approx(b, rel=1e-6)
+
+
+@pytest.mark.parametrize("n", [101, 128, 200])
+@pytest.mark.parametrize("eps", [1e-3, 0.01, 0.1])
+def test_what_decays_last_is_found_too(n, eps):
+    """Where nothing grows: against all eigenvalues of the dense Jacobian but those that are exactly neutral."""
+    for a in (0.5, 0.97, 1.5, 8.0):
+        lam = np.linalg.eigvals(jacobian(Toy(a, eps), n)).real
+        assert growth(Toy(a, eps), n) == pytest.approx(lam[np.abs(lam) > 1e-9].max(), rel=1e-6), a
 
 
 def test_the_structured_search_starts_near_what_it_seeks():

@@ -29,6 +29,7 @@ from primer.schemes.discrete import discrete_steady
 from primer.schemes.grid import Grid
 
 _BYTES = 600  # for each point, of the 31 complex vectors of a search
+_SLOW = 1e-3  # no eigenvalue where all decay, and nearer to those of slow decay than to others
 _DENSE = 100  # points up to which all eigenvalues cost less than a few of them
 
 
@@ -164,6 +165,8 @@ def _rightmost(toy, n, parity, dt):
         lam, vectors = np.linalg.eig(matrix)
     else:
         found = [_near(s, diagonal, off, shift) for shift in _shifts(toy, n, dt)]
+        if max(rate(lam, dt).max() for lam, _ in found) < 0:  # what decays last is near the sawtooth, or a packet
+            found += [_near(s, diagonal, off, shift) for shift in (_SLOW, _packet(toy, n))]
         lam, vectors = (np.concatenate(part, axis=-1) for part in zip(*found, strict=True))
     best = np.argmax(rate(lam, dt))
     y = vectors[s.size :, best]
@@ -184,13 +187,17 @@ def _shifts(toy, n, dt):
     roots = np.roots([1, 0, -Q, math.sqrt(K)])
     shifts = [complex(lam.real, abs(lam.imag)) for lam in sorted(roots[roots.real > 1e-9] ** 2, key=np.real)[-1:]]
     if Q > 0.8 or dt:
-        shifts.append(complex(Q - 1, 4 / h) / 4)
+        shifts.append(_packet(toy, n))
     if dt:
         S = 1 / (1 + math.sqrt(max(-Q, 0)))
         b = 1 - (Q + 1) * S
         shifts.append(complex(-b / 2, math.sqrt(abs(4 * S * (1 - S) / h**2 - b * b / 4)) + 1e-3))
         shifts.append(complex(-1 - 4 * toy.eps * (toy.a + h / math.sin(h)) / h**2))
     return shifts
+
+
+def _packet(toy, n):
+    return complex(depth(toy, n) - 1, 4 / Grid(n).h) / 4
 
 
 def _near(s, diagonal, off, shift, steps=30):
