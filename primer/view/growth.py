@@ -2,6 +2,8 @@
 
 from primer.view.style import ILL, STEADY
 
+_LINES = ("-", "--", "-.", ":")
+
 
 def draw_growth(ax, xi, rate, label=None, cut_off=None, **line):
     """max Re lambda against xi; on a grid the curve ends in a dot at the cut-off pi/h, its shortest wave.
@@ -14,6 +16,18 @@ def draw_growth(ax, xi, rate, label=None, cut_off=None, **line):
         ax.axvline(cut_off, color=curve.get_color(), ls=":", lw=1, zorder=0)
     ax.set(xlabel=r"wavenumber $\xi$", ylabel=r"growth rate $\max\,\mathrm{Re}\,\lambda$")
     return curve
+
+
+def draw_growths(ax, xi, rates, linthresh=1.0):
+    """Growth rates against xi, one curve for each of ``rates`` (label -> array), linear within +-``linthresh``."""
+    curves = [
+        draw_growth(ax, xi, rate, label=label, ls=_LINES[i % len(_LINES)])
+        for i, (label, rate) in enumerate(rates.items())
+    ]
+    ax.set_yscale("symlog", linthresh=linthresh)
+    shade_growing(ax, ax.get_ylim()[1])
+    ax.legend()
+    return curves
 
 
 def shade_growing(ax, top, text="perturbations grow"):
