@@ -31,7 +31,7 @@ def test_where_the_equations_are_ill_posed_more_work_is_lost():
 
 
 def test_bad_input_gets_one_sentence():
-    with pytest.raises(ValueError, match="methods must be of FTCS, .*, got 'reference'"):
+    with pytest.raises(ValueError, match=r"methods must be of FTCS, .*, got 'reference'"):
         effort(Toy(1.5), methods=["reference"])
     with pytest.raises(ValueError, match="t_end must be a finite number > 0, got 0"):
         effort(Toy(1.5), 0)

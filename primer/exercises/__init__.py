@@ -4,5 +4,19 @@ Another seed gives another student other numbers; without one everybody has thos
 """
 
 from primer.exercises.grid_dependence import ask_03_1, ask_03_2, ask_03_3, check_03_1, check_03_2, check_03_3
+from primer.exercises.scheme_or_pde import ask_04_1, ask_04_2, ask_04_3, check_04_1, check_04_2, check_04_3
 
-__all__ = ["ask_03_1", "ask_03_2", "ask_03_3", "check_03_1", "check_03_2", "check_03_3"]
+__all__ = [
+    "ask_03_1",
+    "ask_03_2",
+    "ask_03_3",
+    "ask_04_1",
+    "ask_04_2",
+    "ask_04_3",
+    "check_03_1",
+    "check_03_2",
+    "check_03_3",
+    "check_04_1",
+    "check_04_2",
+    "check_04_3",
+]

@@ -18,13 +18,17 @@ def draw_growth(ax, xi, rate, label=None, cut_off=None, **line):
     return curve
 
 
-def draw_growths(ax, xi, rates, linthresh=1.0):
-    """Growth rates against xi, one curve for each of ``rates`` (label -> array), linear within +-``linthresh``."""
+def draw_growths(ax, xi, rates, linthresh=1.0, **options):
+    """Growth rates against xi, one curve for each of ``rates`` (label -> array), linear within +-``linthresh``.
+
+    ``options`` are set on the axes. Returns the lines.
+    """
     curves = [
         draw_growth(ax, xi, rate, label=label, ls=_LINES[i % len(_LINES)])
         for i, (label, rate) in enumerate(rates.items())
     ]
     ax.set_yscale("symlog", linthresh=linthresh)
+    ax.set(**options)
     shade_growing(ax, ax.get_ylim()[1])
     ax.legend()
     return curves

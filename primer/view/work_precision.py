@@ -61,7 +61,7 @@ def draw_effort(ax, efforts, top=10.0):
         ax.loglog(effort.work[lives], effort.error[lives], label=effort.method, **_look(effort.method))
         lost = effort.work[~lives]
         ax.loglog(lost, np.full(lost.size, top), "x", color=_look(effort.method)["color"], ms=7, clip_on=False)
-    ax.set(xlabel="work: points × evaluations", ylabel="largest error of u and v", ylim=(1e-14, top))
+    ax.set(xlabel="work: points times evaluations", ylabel="largest error of u and v", ylim=(1e-14, top))
     ax.legend(loc="lower left")
 
 
