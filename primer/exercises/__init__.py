@@ -5,6 +5,7 @@ Another seed gives another student other numbers; without one everybody has thos
 
 from primer.exercises.grid_dependence import ask_03_1, ask_03_2, ask_03_3, check_03_1, check_03_2, check_03_3
 from primer.exercises.scheme_or_pde import ask_04_1, ask_04_2, ask_04_3, check_04_1, check_04_2, check_04_3
+from primer.exercises.speed_against_error import ask_05_1, ask_05_2, ask_05_3, check_05_1, check_05_2, check_05_3
 
 __all__ = [
     "ask_03_1",
@@ -13,10 +14,16 @@ __all__ = [
     "ask_04_1",
     "ask_04_2",
     "ask_04_3",
+    "ask_05_1",
+    "ask_05_2",
+    "ask_05_3",
     "check_03_1",
     "check_03_2",
     "check_03_3",
     "check_04_1",
     "check_04_2",
     "check_04_3",
+    "check_05_1",
+    "check_05_2",
+    "check_05_3",
 ]

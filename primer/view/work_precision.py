@@ -61,8 +61,8 @@ def draw_effort(ax, efforts, top=10.0):
         ax.loglog(effort.work[lives], effort.error[lives], label=effort.method, **_look(effort.method))
         lost = effort.work[~lives]
         ax.loglog(lost, np.full(lost.size, top), "x", color=_look(effort.method)["color"], ms=7, clip_on=False)
-    ax.set(xlabel="work: points times evaluations", ylabel="largest error of u and v", ylim=(1e-14, top))
-    ax.legend(loc="lower left")
+    ax.set(xlabel="work: points times evaluations", ylabel="largest error of u and v", ylim=(1e-18, top))
+    ax.legend(loc="lower left", ncols=2)
 
 
 def draw_cost(ax, cost):
