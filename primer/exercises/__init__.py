@@ -4,6 +4,7 @@ Another seed gives another student other numbers; without one everybody has thos
 """
 
 from primer.exercises.grid_dependence import ask_03_1, ask_03_2, ask_03_3, check_03_1, check_03_2, check_03_3
+from primer.exercises.living_with_ill_posedness import ask_08_1, ask_08_2, ask_08_3, check_08_1, check_08_2, check_08_3
 from primer.exercises.scheme_or_pde import ask_04_1, ask_04_2, ask_04_3, check_04_1, check_04_2, check_04_3
 from primer.exercises.speed_against_error import ask_05_1, ask_05_2, ask_05_3, check_05_1, check_05_2, check_05_3
 
@@ -17,6 +18,9 @@ __all__ = [
     "ask_05_1",
     "ask_05_2",
     "ask_05_3",
+    "ask_08_1",
+    "ask_08_2",
+    "ask_08_3",
     "check_03_1",
     "check_03_2",
     "check_03_3",
@@ -26,4 +30,7 @@ __all__ = [
     "check_05_1",
     "check_05_2",
     "check_05_3",
+    "check_08_1",
+    "check_08_2",
+    "check_08_3",
 ]

@@ -72,13 +72,16 @@ def draw_last_bit(ax, plain, ulps, mirror):
     ax.set(xlabel="blow-up time", xlim=(0, 60), ylim=(-0.6, 2.6))
 
 
-def draw_recovery(ax, result, parameter):
-    """Error against the cut-off or beta, one curve a level of noise; thin: expected; grey: without noise."""
+def draw_recovery(ax, result, parameter, **options):
+    """Error against the cut-off or beta, one curve a level of noise; thin: expected; grey: without noise.
+
+    ``options`` are set on the axes.
+    """
     for noise, error, expected, marker in zip(result.noise, result.error, result.expected, "osv^D", strict=False):
         (line,) = ax.plot(result.parameters, error, marker, ms=3.5, label=f"noise {noise:.0e}")
         ax.plot(result.parameters, expected, color=line.get_color(), lw=1)
     ax.plot(result.parameters, result.bias, color=STEADY, ls=":", label="no noise")
-    ax.set(xlabel=parameter, ylabel="rms error", yscale="log")
+    ax.set(xlabel=parameter, ylabel="rms error", yscale="log", **options)
     ax.legend()
 
 
