@@ -5,6 +5,9 @@ import pytest
 
 from primer import PastHorizon, Toy
 from primer.study.effort import effort
+from primer.view.growth import draw_growths
+from primer.view.style import new_figure, styled
+from primer.view.work_precision import draw_effort
 
 
 def test_work_is_points_times_stages_times_steps():
@@ -28,6 +31,17 @@ def test_where_the_equations_are_ill_posed_more_work_is_lost():
         assert found.error[2] == np.inf
     for found in effort(Toy(1.5), 5.0, (64, 256)):
         assert found.error[1] < max(found.error[0], 1e-11)
+
+
+def test_a_run_that_blew_up_is_drawn_as_a_cross():
+    found = effort(Toy(0.5), 5.0, (64, 256), ("FTCS", "Fourier + RK8"))
+    with styled():
+        _, (ax, other) = new_figure()
+        draw_effort(ax, found)
+        draw_growths(other, np.arange(3.0), {"one": np.array([-1.0, 0, 9])}, title="rates")
+    crosses = [line for line in ax.lines if line.get_marker() == "x"]
+    assert [line.get_xdata().tolist() for line in crosses] == [[one.work[1]] for one in found]
+    assert other.get_title() == "rates"
 
 
 def test_bad_input_gets_one_sentence():

@@ -93,7 +93,7 @@ _KINDS = {
     (1.5, 60, 1e-3, 40): "converges",
     (0.9, 60, 1e-3, 100): "hidden",
     (0.0, 80, 1e-3, 100): "ill-posed",
-    (1.2, 900, 1e-3, 20): "scheme",
+    (1.3, 900, 2e-3, 20): "scheme",
 }
 _HINTS = {
     "converges": "where is the least u of the run, on the way and at rest? And does the run reach its end?",
