@@ -41,7 +41,7 @@ def test_a_run_that_blew_up_is_drawn_as_a_cross():
         draw_growths(other, np.arange(3.0), {"one": np.array([-1.0, 0, 9])}, title="rates")
     crosses = [line for line in ax.lines if line.get_marker() == "x"]
     assert [line.get_xdata().tolist() for line in crosses] == [[one.work[1]] for one in found]
-    assert other.get_title() == "rates"
+    assert other.get_title(loc="left") == "rates"
 
 
 def test_bad_input_gets_one_sentence():
