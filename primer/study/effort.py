@@ -34,7 +34,7 @@ class Effort:
 
     @property
     def order(self):
-        """Of accuracy in h = 2 pi/n: the slope of ln(error) over ln(h), by least squares."""
+        """Of accuracy in h = 2 pi/n: the slope of ln(error) over ln(h), by least squares; NaN if a run blew up."""
         return -float(np.polyfit(np.log(self.n), np.log(self.error), 1)[0])
 
 
