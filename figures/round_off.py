@@ -18,8 +18,8 @@ from primer.study.round_off import (
     precision_ladder,
     seed_ladder,
 )
-from primer.view.grid_dependence import draw_seeds
-from primer.view.style import STEADY, U, V, new_figure
+from primer.view.grid_dependence import draw_ladder, draw_last_bit, draw_seeds
+from primer.view.style import new_figure
 
 LADDER = {"toy": Toy(-1.5, 0.02), "n": 36, "dt": 8e-3, "t_end": 30.0}
 PAPER = Toy(0.5)
@@ -55,23 +55,10 @@ def numbers(result):
 
 def draw(result):
     figure, (left, middle, right) = new_figure(1, 3, width=11.0, title="Round-off as the seed")
-    names = list(result["ladder"])
-    for i, name in enumerate(names):
-        low, high = result["foreseen"][name].blow_up or (np.nan, np.nan)
-        left.plot([low, high], [i, i], color=STEADY, lw=6, alpha=0.35, label="foreseen" if i == 0 else None)
-    left.plot(list(result["ladder"].values()), range(len(names)), "o", color=U, label="measured")
-    left.set_yticks(range(len(names)), names)
-    left.set(title="(a) digits buy time, N = 36", xlabel="blow-up time", xlim=(0, None))
-    left.legend(loc="lower right")
+    draw_ladder(left, result["ladder"], result["foreseen"])
+    left.set(title="(a) digits buy time, N = 36")
     draw_seeds(middle, result["seeds"])
     middle.set(title="(b) stated seeds, N = 80")
-    rows = [
-        ("as the paper", [result["plain"]], "o", U),
-        ("one ulp", result["ulps"], "|", U),
-        ("mirrored", [result["mirror"]], "s", V),
-    ]
-    for i, (_, times, marker, color) in enumerate(rows):
-        right.plot(times, np.full(len(times), i), marker, color=color, ms=9 if marker == "|" else 6)
-    right.set_yticks(range(len(rows)), [name for name, *_ in rows])
-    right.set(title="(c) the last bit, the order, N = 100", xlabel="blow-up time", xlim=(0, 60), ylim=(-0.6, 2.6))
+    draw_last_bit(right, result["plain"], result["ulps"], result["mirror"])
+    right.set(title="(c) the last bit, the order, N = 100")
     return figure

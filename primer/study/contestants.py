@@ -23,13 +23,15 @@ class Method:
     """A way to march the toy system, and the settings of its one knob, in order of cost.
 
     ``march(toy, knob, t_end)`` returns (x, (u, v), dt) at t_end; dt is NaN where the method chooses its own steps.
-    The knob is the number of grid points, unless it is the tolerance (``by_points`` is false).
+    The knob is the number of grid points, unless it is the tolerance (``by_points`` is false). ``stages`` are the
+    evaluations of the right-hand side in each step, 0 where the method chooses its own steps.
     """
 
     name: str
     march: Callable
     knobs: tuple
     by_points: bool = True
+    stages: int = 0
 
 
 def contestants(with_py_pde=None):
@@ -48,10 +50,11 @@ def contestants(with_py_pde=None):
         "central 6": (CENTRAL_6, doubling),
         "Fourier": (FOURIER, (8, 10, 12, 14, 16, 20)),
     }
-    methods = [Method("FTCS", _ftcs, doubling)]
+    methods = [Method("FTCS", _ftcs, doubling, stages=1)]
     for time in (RK4, RK8):
         for name, (space, knobs) in spaces.items():
-            methods.append(Method(f"{name} + {time.name}", partial(_lines, space=space, time=time), knobs))
+            march = partial(_lines, space=space, time=time)
+            methods.append(Method(f"{name} + {time.name}", march, knobs, stages=len(time.b)))
     tolerances = tuple(10.0**-k for k in range(4, 13))
     methods += [
         Method("reference", _reference, tolerances[2:], by_points=False),

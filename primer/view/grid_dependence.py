@@ -47,13 +47,41 @@ def draw_seeds(ax, ladder):
     ax.legend()
 
 
-def draw_recovery(ax, result, parameter):
-    """Error against the cut-off or beta, one curve a level of noise; thin: expected; grey: without noise."""
+def draw_ladder(ax, measured, foreseen):
+    """Blow-up times of one run in several arithmetics, name -> time, over the bars that ``diagnose`` foresees."""
+    names = list(measured)
+    for i, name in enumerate(names):
+        low, high = foreseen[name].blow_up or (np.nan, np.nan)
+        ax.plot([low, high], [i, i], color=STEADY, lw=6, alpha=0.35, label="foreseen" if i == 0 else None)
+    ax.plot(list(measured.values()), range(len(names)), "o", color=U, label="measured")
+    ax.set_yticks(range(len(names)), names)
+    ax.set(xlabel="blow-up time", xlim=(0, None))
+    ax.legend(loc="lower right")
+
+
+def draw_last_bit(ax, plain, ulps, mirror):
+    """Blow-up times: as the paper's order of operations has it, after moving one last bit, and with mirror symmetry."""
+    rows = [
+        ("as the paper", [plain], "o", U),
+        ("one ulp", ulps, "|", U),
+        ("mirrored", [mirror], "s", V),
+    ]
+    for i, (_, times, marker, color) in enumerate(rows):
+        ax.plot(times, np.full(len(times), i), marker, color=color, ms=9 if marker == "|" else 6)
+    ax.set_yticks(range(len(rows)), [name for name, *_ in rows])
+    ax.set(xlabel="blow-up time", xlim=(0, 60), ylim=(-0.6, 2.6))
+
+
+def draw_recovery(ax, result, parameter, **options):
+    """Error against the cut-off or beta, one curve a level of noise; thin: expected; grey: without noise.
+
+    ``options`` are set on the axes.
+    """
     for noise, error, expected, marker in zip(result.noise, result.error, result.expected, "osv^D", strict=False):
         (line,) = ax.plot(result.parameters, error, marker, ms=3.5, label=f"noise {noise:.0e}")
         ax.plot(result.parameters, expected, color=line.get_color(), lw=1)
     ax.plot(result.parameters, result.bias, color=STEADY, ls=":", label="no noise")
-    ax.set(xlabel=parameter, ylabel="rms error", yscale="log")
+    ax.set(xlabel=parameter, ylabel="rms error", yscale="log", **options)
     ax.legend()
 
 

@@ -1,8 +1,8 @@
 """Pictures of growth rates against wavenumber."""
 
-from itertools import cycle
-
 from primer.view.style import ILL, STEADY
+
+_LINES = ("-", "--", "-.", ":")
 
 
 def draw_growth(ax, xi, rate, label=None, cut_off=None, **line):
@@ -18,15 +18,20 @@ def draw_growth(ax, xi, rate, label=None, cut_off=None, **line):
     return curve
 
 
-def draw_rates(ax, xi, rates, reach):
-    """max Re lambda of several equations, ``rates[name]`` of the shape of xi, between -reach and reach; log scales."""
-    for (name, rate), ls in zip(rates.items(), cycle(("-", "--", "-.", ":"))):
-        draw_growth(ax, xi, rate, label=name, ls=ls)
-    ax.set_xscale("log")
-    ax.set_yscale("symlog", linthresh=1)
-    ax.set(xlim=(xi[0], xi[-1]), ylim=(-reach, reach))
-    shade_growing(ax, reach)
-    ax.legend(loc="upper left")
+def draw_growths(ax, xi, rates, linthresh=1.0, **options):
+    """Growth rates against xi, one curve for each of ``rates`` (label -> array), linear within +-``linthresh``.
+
+    ``options`` are set on the axes. Returns the lines.
+    """
+    curves = [
+        draw_growth(ax, xi, rate, label=label, ls=_LINES[i % len(_LINES)])
+        for i, (label, rate) in enumerate(rates.items())
+    ]
+    ax.set_yscale("symlog", linthresh=linthresh)
+    ax.set(**options)
+    shade_growing(ax, ax.get_ylim()[1])
+    ax.legend()
+    return curves
 
 
 def shade_growing(ax, top, text="perturbations grow"):

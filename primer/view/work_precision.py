@@ -54,6 +54,17 @@ def draw_work_precision(ax, study):
     return artists
 
 
+def draw_effort(ax, efforts, top=10.0):
+    """Max-norm error at t_end over work, one line an ``Effort``; a run that blew up is a cross at the upper edge."""
+    for effort in efforts:
+        lives = np.isfinite(effort.error)
+        ax.loglog(effort.work[lives], effort.error[lives], label=effort.method, **_look(effort.method))
+        lost = effort.work[~lives]
+        ax.loglog(lost, np.full(lost.size, top), "x", color=_look(effort.method)["color"], ms=7, clip_on=False)
+    ax.set(xlabel="work: points times evaluations", ylabel="largest error of u and v", ylim=(1e-18, top))
+    ax.legend(loc="lower left", ncols=2)
+
+
 def draw_cost(ax, cost):
     """Wall time to t_end over N, one line a method, and the slope of explicit steps that diffusion limits."""
     artists = []

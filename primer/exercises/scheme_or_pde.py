@@ -1,0 +1,124 @@
+"""Exercises of notebook 04, the scheme or the PDE?"""
+
+import math
+
+from primer.exercises.answers import check, choose, variant
+
+
+def _first(seed):
+    return variant("04_1", seed, a=(1.5, 2.0, 1.2, 3.0), n=(400, 300, 500, 800))
+
+
+def ask_04_1(seed=0):
+    """The question: the largest step for the sawtooth."""
+    given = _first(seed)
+    return (
+        f"With a = {given['a']} and eps = 0.01 on N = {given['n']} points: up to which dt does the sawtooth not grow, "
+        "frozen where u of the steady state is largest?"
+    )
+
+
+def check_04_1(answer, seed=0):
+    """Whether ``answer`` is 2/(1 + 4 eps (a + 1)/h^2), to two per cent; a ``Feedback``.
+
+    To the sawtooth the first difference is zero and the second is -4/h^2, so that v is multiplied each step by
+    1 - dt (1 + 4 eps u/h^2), eq. (toy-mat).
+    """
+    given = _first(seed)
+    h, eps, u = 2 * math.pi / given["n"], 0.01, given["a"] + 1
+    return check(
+        answer,
+        2 / (1 + 4 * eps * u / h**2),
+        "beyond it the sawtooth overshoots, and changes sign with every step.",
+        {
+            "that is where the factor is 0. It may be as low as -1.": 1 / (1 + 4 * eps * u / h**2),
+            "the largest u of the steady state is a + 1, not a.": 2 / (1 + 4 * eps * (u - 1) / h**2),
+            "the least u is a - 1: the largest is meant.": 2 / (1 + 4 * eps * (u - 2) / h**2),
+            "that is the limit of waves at eps = 0. Here diffusion is what is stiff.": h**2,
+        },
+        "each step multiplies v by 1 - dt (1 + 4 eps u/h^2). When is that outside [-1, 1]?",
+        rtol=0.02,
+    )
+
+
+# (a, N, times): blow-ups from seeds of 1e-4 and 1e-12 of the mode N/2 - 1 of v, in steps of 5e-4.
+_MEASURED = (
+    (0.0, 60, 8.76, 20.08),
+    (0.3, 60, 26.47, 81.68),
+    (0.1, 60, 9.97, 28.34),
+    (-0.1, 56, 9.47, 21.62),
+    (0.4, 70, 15.54, 51.16),
+)
+
+
+def _second(seed):
+    a, n, soon, late = variant("04_2", seed, measured=_MEASURED)["measured"]
+    return {"a": a, "n": n, "soon": soon, "late": late}
+
+
+def ask_04_2(seed=0):
+    """The question: a growth rate from two blow-ups."""
+    given = _second(seed)
+    return (
+        f"With a = {given['a']} on N = {given['n']} points a seed of 1e-4 blew up at t = {given['soon']}, and one of "
+        f"1e-12 at t = {given['late']}. At which rate did the seed grow?"
+    )
+
+
+def check_04_2(answer, seed=0):
+    """Whether ``answer`` is 8 ln(10) over the time between, to four per cent; a ``Feedback``."""
+    given = _second(seed)
+    between = given["late"] - given["soon"]
+    return check(
+        answer,
+        8 * math.log(10) / between,
+        "nobody looked at the equations: two runs and a logarithm gave an eigenvalue.",
+        {
+            "growth is exp(rate t), not 10^(rate t).": 8 / between,
+            "that is a time for each factor of e: the rate is its inverse.": between / (8 * math.log(10)),
+            "one blow-up does not tell: the first growth is not at this rate. Take the difference of the two.": 12
+            * math.log(10)
+            / given["late"],
+        },
+        "the second seed is 10^8 times smaller, and that took exp(rate t) the time between the two to make up for.",
+        rtol=0.04,
+    )
+
+
+_KINDS = {
+    (0.5, 30, 1e-3, 100): "hidden",
+    (1.5, 1000, 1e-3, 20): "scheme",
+    (0.5, 100, 1e-3, 100): "ill-posed",
+    (1.15, 1200, 2e-4, 20): "transient",
+    (1.5, 60, 1e-3, 40): "converges",
+    (0.9, 60, 1e-3, 100): "hidden",
+    (0.0, 80, 1e-3, 100): "ill-posed",
+    (1.3, 900, 2e-3, 20): "scheme",
+}
+_HINTS = {
+    "converges": "where is the least u of the run, on the way and at rest? And does the run reach its end?",
+    "hidden": "that is of runs that reach their end, though u < 0 stays where it is.",
+    "ill-posed": "would it blow up with a quarter of the step? And is u < 0 in the steady state?",
+    "scheme": "would it live with a quarter of the step? And did it blow up at all?",
+    "transient": "that is where u dips below zero only on the way: the steady state a - cos x stays positive.",
+}
+
+
+def _third(seed):
+    return variant("04_3", seed, case=tuple(_KINDS))["case"]
+
+
+def ask_04_3(seed=0):
+    """The question: what kind of run."""
+    a, n, dt, t_end = _third(seed)
+    return (
+        f"The paper's scheme with a = {a}, eps = 0.01, N = {n}, dt = {dt:g}, to t = {t_end}. Run it, and run it "
+        "again as you like. Is it 'converges', 'hidden', 'ill-posed', 'scheme' or 'transient'?"
+    )
+
+
+def check_04_3(answer, seed=0):
+    """Whether ``answer`` is the :class:`primer.study.diagnosis.Kind` of the run; a ``Feedback``."""
+    kind = _KINDS[_third(seed)]
+    hints = {other: hint for other, hint in _HINTS.items() if other != kind}
+    return choose(answer, kind, "and diagnose says so without running it.", hints)
