@@ -148,12 +148,12 @@ def reference(toy: Toy, t: ArrayLike, tol: float = 1e-10) -> Reference:
 
 
 def _times(t: ArrayLike) -> np.ndarray:
-    t = np.atleast_1d(real_array("t", t)).astype(float)  # a copy
-    if t.size > _TIMES:
-        raise ValueError(f"t must be at most {_TIMES} times, got {t.size}")
-    if t.ndim != 1 or t.size == 0 or t.min() < 0:
-        raise ValueError(f"t must be a time >= 0 or a non-empty sequence of them, got {shown(t)}")
-    return t
+    times = np.atleast_1d(real_array("t", t)).astype(float)  # a copy
+    if times.size > _TIMES:
+        raise ValueError(f"t must be at most {_TIMES} times, got {times.size}")
+    if times.ndim != 1 or times.size == 0 or times.min() < 0:
+        raise ValueError(f"t must be a time >= 0 or a non-empty sequence of them, got {shown(times)}")
+    return times
 
 
 def _past(toy, t, tol, horizon):
