@@ -50,6 +50,8 @@ def test_what_is_public_is_annotated():
         parts += ["return"] * (signature.return_annotation is signature.empty)
         bare |= {name: parts} if parts else {}
     assert not bare
+    # help() and a notebook's tooltip say ArrayLike, rather than the two hundred characters of what that is.
+    assert not [name for name, function in found.items() if "_typing" in str(inspect.signature(function))]
 
 
 def test_a_type_checker_sees_the_names_that_are_loaded_late():

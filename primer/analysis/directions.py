@@ -1,5 +1,7 @@
 """The fastest growth over all directions of a wavevector of given length."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 
 import numpy as np

@@ -1,5 +1,7 @@
 """Growth laws along one direction, for equations as text or as a pencil."""
 
+from __future__ import annotations
+
 from typing import Any
 
 import mpmath as mp

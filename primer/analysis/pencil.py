@@ -1,5 +1,7 @@
 """Frozen-coefficient symbols as matrix pencils, and the growth of the exponentials they admit (section A2.1)."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any

@@ -3,6 +3,8 @@
 A polynomial is a dict {(n, a, b): c} standing for the sum of c lambda^n xi_1^a xi_2^b; b = 0 in one space variable.
 """
 
+from __future__ import annotations
+
 from collections import defaultdict
 from dataclasses import dataclass
 from functools import cached_property

@@ -1,5 +1,7 @@
 """A PDE as text: linearise, freeze, and look for exponentials (the three steps of section A2.1)."""
 
+from __future__ import annotations
+
 from contextlib import suppress
 from typing import Any
 

@@ -1,5 +1,7 @@
 """The form of Y and f that CSSM and CIDR share, eq. (Cmu-ansatz-for-aux-fcn), with any a(I) and b(I)."""
 
+from __future__ import annotations
+
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import ClassVar

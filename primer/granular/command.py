@@ -1,5 +1,7 @@
 """``primer granular``: the hypotheses, the verdict and the limit of a granular law at a base state."""
 
+from __future__ import annotations
+
 import json
 import math
 from collections.abc import Callable

@@ -1,5 +1,7 @@
 """How the strength of the packing depends on the solids fraction: C(phi) of eq. (form-of-C)."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 
 from primer.checks import real, real_array, shown

@@ -1,5 +1,7 @@
 """The paper's hypotheses and the classical criteria, each as a closed form that reports what holds."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 
 import numpy as np

@@ -1,5 +1,7 @@
 """Friction laws mu(I) and the alpha(I), beta(I) that Lemma 1 makes of them."""
 
+from __future__ import annotations
+
 import math
 from collections.abc import Callable
 from dataclasses import dataclass

@@ -4,6 +4,8 @@ Everything is in the frame of the base state's stress: xi_1 runs along the major
 flow only turns lambda into lambda + i <u*, xi> and is left out.
 """
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -74,7 +76,7 @@ def coefficients(law: Law, state: BaseState) -> Coefficients:
     return Coefficients(**arrays, incompressible=getattr(law, "incompressible", False))
 
 
-def linearise(law: Law, state: BaseState) -> "Pencil":
+def linearise(law: Law, state: BaseState) -> Pencil:
     """The pencil lambda E q = -S(xi) q of eqs. (e24) to (e26) for one base state.
 
     The unknowns are q = (u_1, u_2, phi, p, psi), and S is 5 x 5; the column of p carries B and the fourth row C, which

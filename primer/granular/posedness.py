@@ -1,5 +1,7 @@
 """Well posed or ill posed: the verdict on a law at a base state."""
 
+from __future__ import annotations
+
 import math
 from dataclasses import fields, replace
 from fractions import Fraction
@@ -18,7 +20,7 @@ if TYPE_CHECKING:
     from primer.analysis.verdict import Verdict
 
 
-def verdict(law: Law, state: BaseState) -> "Verdict":
+def verdict(law: Law, state: BaseState) -> Verdict:
     """Whether the frozen equations of a law are linearly well posed at a base state, and how fast they grow if not.
 
     Linearly well posed is eq. (wellp-first-formula).

@@ -8,6 +8,8 @@ A law may say more: ``p_max(phi, I)``, the pressure at which Y falls to zero, an
 declares f = 0 and phi constant.
 """
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 from typing import Any, ClassVar
 

@@ -1,5 +1,7 @@
 """The base state at which the equations are frozen."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 
 import numpy as np

@@ -1,5 +1,7 @@
 """The backward heat equation, eq. (backward-heat): the classic ill-posed problem, solved mode by mode."""
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import ClassVar

@@ -1,5 +1,7 @@
 """The paper's toy system, eq. (toy-pde): well posed where u > 0, ill posed where u < 0."""
 
+from __future__ import annotations
+
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass

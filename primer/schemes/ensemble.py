@@ -1,5 +1,7 @@
 """Many toy systems marched side by side: the same runs, to the bit, in less time."""
 
+from __future__ import annotations
+
 import os
 from collections.abc import Iterable
 from concurrent.futures import ThreadPoolExecutor

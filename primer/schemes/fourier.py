@@ -8,6 +8,8 @@ eq. (toy-mat) takes its multipliers to be those of the continuum):
 1.000000000000
 """
 
+from __future__ import annotations
+
 import math
 from dataclasses import dataclass
 from functools import lru_cache

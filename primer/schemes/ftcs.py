@@ -1,5 +1,7 @@
 """The paper's scheme: central differences in space, forward Euler in time."""
 
+from __future__ import annotations
+
 import sys
 from collections.abc import Iterable
 

@@ -10,6 +10,8 @@ order (Fornberg, Math. Comp. 51 (1988) 699), as tables derivative -> stencil:
 6 0.999975
 """
 
+from __future__ import annotations
+
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass

@@ -1,5 +1,7 @@
 """The method of lines: any stencil in space, any Runge-Kutta step in time, on the same right-hand side as ``ftcs``."""
 
+from __future__ import annotations
+
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field

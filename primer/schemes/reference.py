@@ -1,5 +1,7 @@
 """The accurate reference for the toy system: an answer with an error bar, or a refusal."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass, field
 from functools import lru_cache
 

@@ -1,5 +1,7 @@
 """What a marched problem gives back: a frozen ``Run``, why it stopped, and the seed that was put in."""
 
+from __future__ import annotations
+
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field

@@ -1,5 +1,7 @@
 """Tell, without running it, what a run of the toy system will do, and whether to blame the scheme or the equations."""
 
+from __future__ import annotations
+
 import math
 from dataclasses import dataclass
 from enum import StrEnum

@@ -1,5 +1,7 @@
 """Which base states blow up on which grids: measured, cell by cell, in a table that a sweep can resume."""
 
+from __future__ import annotations
+
 import math
 import warnings
 from collections.abc import Iterable, Sequence

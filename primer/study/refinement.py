@@ -1,5 +1,7 @@
 """Grid refinement: the same problem on finer and finer grids."""
 
+from __future__ import annotations
+
 import math
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass

@@ -13,6 +13,8 @@ The first bound grows with u and the second falls. Where g < -1 the sawtooth has
 ill-posedness as this grid sees it, and the finer the grid the faster.
 """
 
+from __future__ import annotations
+
 import math
 
 import numpy as np
