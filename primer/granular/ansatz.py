@@ -18,7 +18,7 @@ class Compressible:
     """Y = a(I) p - p^2/C(phi) and f = b(I) - 2 p/C(phi), eq. (Cmu-ansatz-for-aux-fcn); a and b are the subclass's."""
 
     incompressible: ClassVar[bool] = False
-    compaction: Compaction
+    compaction: Compaction  # this and a(I), b(I) with their derivatives are the subclass's
     a: Callable
     da: Callable
     b: Callable
