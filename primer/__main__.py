@@ -78,6 +78,8 @@ def _add_verdict(commands):
 
 
 def _verdict(options):
+    from fractions import Fraction
+
     from primer.analysis.puiseux import Law
     from primer.analysis.verdict import verdict
 
@@ -90,7 +92,7 @@ def _verdict(options):
         return json.dumps({"kind": str(found.kind), **number, **rest}, indent=1)
     rows = [("verdict", str(found.kind) + (", unstable" if found.unstable and math.isfinite(found.bound) else ""))]
     if found.direction:
-        rows.append(("short waves", str(Law(found.exponent, found.coefficient))))
+        rows.append(("short waves", str(Law(Fraction(found.exponent), found.coefficient))))
         rows.append(("bound", f"Re lambda <= {found.bound:.10g}" if math.isfinite(found.bound) else "none"))
     if len(found.direction) == 2:
         rows.append(("direction", "({:.6g}, {:.6g})".format(*found.direction)))

@@ -4,6 +4,7 @@ import math
 import sys
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -22,7 +23,7 @@ class Arithmetic:
 
     dtype: np.dtype
     number: Callable
-    pi: object
+    pi: Any
     epsilon: float
     largest: float
 

@@ -2,14 +2,20 @@
 
 import math
 import operator
+from collections.abc import Callable, Iterable
 from numbers import Real
+from typing import Any, TypeVar
 
 import numpy as np
+from numpy.typing import ArrayLike
+
+T = TypeVar("T")
+F = TypeVar("F", bound=Callable)
 
 MAX_BYTES = 2**31  # what would need more memory than this is refused before it starts
 
 
-def shown(value):
+def shown(value: object) -> str:
     """``value`` as it appears in a message, never longer than a line."""
     if isinstance(value, np.generic) or (isinstance(value, np.ndarray) and value.ndim == 0):
         value = value.item()  # 0.61 rather than np.float64(0.61) or array(0.61)
@@ -20,34 +26,34 @@ def shown(value):
     return text if len(text) <= 60 else text[:57] + "..."
 
 
-def instance(name, value, kind, example=None):
+def instance(name: str, value: object, kind: type[T], example: str | None = None) -> T:
     """Return ``value`` if it is of this type, or say in one sentence that it is not."""
     if not isinstance(value, kind):
         raise TypeError(f"{name} must be a {example or kind.__name__}, got {shown(value)}")
     return value
 
 
-def function(name, value, of):
+def function(name: str, value: F, of: str) -> F:
     """Return ``value`` if it can be called, or say in one sentence what it must be a function of."""
     if not callable(value):
         raise TypeError(f"{name} must be a function of {of}, got {shown(value)}")
     return value
 
 
-def sequence(name, value, of):
+def sequence(name: str, value: Iterable[T], of: str) -> tuple[T, ...]:
     """Return ``value`` as a tuple, or say in one sentence of what it must be a sequence."""
     if isinstance(value, (str, bytes, dict)) or not np.iterable(value):
         raise TypeError(f"{name} must be a sequence of {of}, got {shown(value)}")
     return tuple(value)
 
 
-def affordable(what, size, got):
+def affordable(what: str, size: float, got: str) -> None:
     """Raise ValueError if ``size`` bytes are more than ``MAX_BYTES``: the sentence names ``what`` and what was got."""
     if size > MAX_BYTES:
         raise ValueError(f"{what} must fit into {MAX_BYTES / 2**30:.0f} GiB of memory, got {got}")
 
 
-def broadcast(**arrays):
+def broadcast(**arrays: np.ndarray) -> tuple[np.ndarray, ...]:
     """The arrays broadcast against each other, or one sentence that says their shapes do not fit."""
     try:
         return np.broadcast_arrays(*arrays.values())
@@ -56,7 +62,15 @@ def broadcast(**arrays):
         raise ValueError(f"the shapes of {', '.join(arrays)} must broadcast, got {shapes}") from None
 
 
-def real(name, value, *, above=None, least=None, below=None, most=None):
+def real(
+    name: str,
+    value: Any,
+    *,
+    above: float | None = None,
+    least: float | None = None,
+    below: float | None = None,
+    most: float | None = None,
+) -> float:
     """Return ``value`` as a float, or say in one sentence why it is not an allowed number.
 
     ``above`` and ``below`` are strict bounds, ``least`` and ``most`` are attained ones.
@@ -67,7 +81,7 @@ def real(name, value, *, above=None, least=None, below=None, most=None):
     ValueError  if it is not finite or lies outside the bounds
     """
     allowed = _range("a finite number", above, least, below, most)
-    if isinstance(value, (bool, np.bool_)) or not isinstance(value, (Real, np.number)) or np.iscomplexobj(value):
+    if not isinstance(value, (Real, np.number)) or isinstance(value, (bool, np.bool_, np.complexfloating)):
         raise TypeError(f"{name} must be {allowed}, got {shown(value)} ({type(value).__name__})")
     try:
         number = float(value)
@@ -78,7 +92,7 @@ def real(name, value, *, above=None, least=None, below=None, most=None):
     return number
 
 
-def integer(name, value, *, least=None, most=None):
+def integer(name: str, value: Any, *, least: int | None = None, most: int | None = None) -> int:
     """Return ``value`` as an int, or say in one sentence why it is not an allowed integer.
 
     Raises
@@ -98,7 +112,7 @@ def integer(name, value, *, least=None, most=None):
     return number
 
 
-def real_array(name, value):
+def real_array(name: str, value: ArrayLike) -> np.ndarray:
     """Return ``value`` as a float array (of any shape) of finite numbers.
 
     Raises

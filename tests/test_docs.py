@@ -12,9 +12,10 @@ import primer
 import primer.granular
 
 ROOT = Path(__file__).parents[1]
+PACKAGE = Path(primer.__file__).parent
 MODULES = [
-    ".".join(path.relative_to(ROOT).with_suffix("").parts).removesuffix(".__init__")
-    for path in sorted((ROOT / "primer").rglob("*.py"))
+    ".".join(path.relative_to(PACKAGE.parent).with_suffix("").parts).removesuffix(".__init__")
+    for path in sorted(PACKAGE.rglob("*.py"))
     if ">>>" in path.read_text(encoding="utf-8")
 ]
 LABELS = (ROOT / "tests" / "paper_labels.txt").read_text(encoding="utf-8").split()
@@ -52,11 +53,11 @@ def test_each_public_name_has_an_example_and_a_source(name):
 
 def public_things():
     """(name, thing) for what the rooms define: functions and classes, and the classes' own functions."""
-    for path in sorted((ROOT / "primer").rglob("*.py")):
-        room = path.relative_to(ROOT / "primer").parts[0]
+    for path in sorted(PACKAGE.rglob("*.py")):
+        room = path.relative_to(PACKAGE).parts[0]
         if room not in ("problems", "schemes", "analysis", "granular", "study") or path.stem == "__init__":
             continue
-        module = importlib.import_module(".".join(path.relative_to(ROOT).with_suffix("").parts))
+        module = importlib.import_module(".".join(path.relative_to(PACKAGE.parent).with_suffix("").parts))
         for name, thing in vars(module).items():
             if name.startswith("_") or getattr(thing, "__module__", None) != module.__name__:
                 continue

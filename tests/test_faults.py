@@ -22,11 +22,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+import primer
 from primer import Seed, Stop, Toy, blow_up_map, ftcs
 from primer.study import contestants, measured
 from primer.study.table import Table
 
 ROOT = Path(__file__).parents[1]
+PACKAGE = Path(primer.__file__).parent
 REGENERATE = ROOT / "figures" / "regenerate.py"
 sys.path.insert(0, str(ROOT / "figures"))
 import regenerate  # noqa: E402
@@ -136,7 +138,7 @@ def test_a_disk_too_full_for_the_compiler_s_cache_costs_only_time():
 @pytest.mark.slow
 def test_a_read_only_installation_and_home_still_run(tmp_path):
     """No folder can be made below a file, not even by root: the nearest to read-only that every account meets."""
-    package = shutil.copytree(ROOT / "primer", tmp_path / "primer", ignore=shutil.ignore_patterns("__pycache__"))
+    package = shutil.copytree(PACKAGE, tmp_path / "primer", ignore=shutil.ignore_patterns("__pycache__"))
     blocked = tmp_path / "file"
     blocked.write_text("")
     for folder in [package, *(path for path in package.rglob("*") if path.is_dir())]:
@@ -156,7 +158,7 @@ def test_an_installation_of_another_user_still_runs(tmp_path):
     """As "nobody", who may read everything here (the Python may be in a private folder) and write nothing."""
     read = "dac_read_search"
     nobody = ["setpriv", "--reuid", "65534", "--clear-groups", f"--inh-caps=+{read}", f"--ambient-caps=+{read}"]
-    shutil.copytree(ROOT / "primer", tmp_path / "primer", ignore=shutil.ignore_patterns("__pycache__"))
+    shutil.copytree(PACKAGE, tmp_path / "primer", ignore=shutil.ignore_patterns("__pycache__"))
     env = {**os.environ, "PYTHONPATH": str(tmp_path), "HOME": "/nonexistent"}
     code = "import os, primer; print(os.access(os.path.dirname(primer.__file__), os.W_OK));" + RUN
     found = subprocess.run([*nobody, sys.executable, "-c", code], capture_output=True, text=True, env=env, cwd=tmp_path)

@@ -15,8 +15,10 @@ import primer
 from primer.__main__ import main
 
 ROOT = Path(__file__).parents[1]
-MODULES = sorted((ROOT / "primer").rglob("*.py"))
+PACKAGE = Path(primer.__file__).parent  # in the checkout, or where a wheel was installed
+MODULES = sorted(PACKAGE.rglob("*.py"))
 FLOORS = [
+    "types",
     "checks",
     "claims",
     "arithmetic",
@@ -44,7 +46,7 @@ def imported(path):
 
 
 def floor(path):
-    return path.relative_to(ROOT / "primer").parts[0].removesuffix(".py")
+    return path.relative_to(PACKAGE).parts[0].removesuffix(".py")
 
 
 def test_import_primer_is_light():
@@ -54,7 +56,7 @@ def test_import_primer_is_light():
 
 
 @pytest.mark.parametrize(
-    "path", [p for p in MODULES if p.name != "__init__.py"], ids=lambda p: str(p.relative_to(ROOT))
+    "path", [p for p in MODULES if p.name != "__init__.py"], ids=lambda p: str(p.relative_to(PACKAGE))
 )
 def test_imports_only_point_down(path):
     here = FLOORS.index(floor(path))
@@ -76,7 +78,7 @@ def test_dataclasses_are_frozen():
     """And every module can be imported by itself."""
     seen = set()
     for path in MODULES:
-        name = ".".join(path.relative_to(ROOT).with_suffix("").parts).removesuffix(".__init__")
+        name = ".".join(path.relative_to(PACKAGE.parent).with_suffix("").parts).removesuffix(".__init__")
         seen |= {x for x in vars(import_module(name)).values() if isinstance(x, type) and is_dataclass(x)}
     assert len(seen) > 40
     assert [x.__name__ for x in seen if not x.__dataclass_params__.frozen] == []
@@ -108,7 +110,7 @@ def test_readme_examples_run(example, tmp_path, monkeypatch, capsys):
 
 def test_readme_layout_names_every_room():
     (picture,) = re.findall(r"## How the code is laid out\n.*?```text\n(.*?)```", readme(), flags=re.S)
-    for path in [*(ROOT / "primer").iterdir(), *(ROOT / d for d in ("figures", "tests", "notebooks"))]:
+    for path in [*PACKAGE.iterdir(), *(ROOT / d for d in ("figures", "tests", "notebooks"))]:
         if path.suffix in (".py", "") and path.name not in ("__init__.py", "__pycache__"):
             assert re.search(rf"\b{path.name}(/|\s)", picture), path.name
 

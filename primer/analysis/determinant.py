@@ -9,9 +9,9 @@ def determinant(entries, zero):
     """
     size = len(entries)
     length = len(next((powers for row in entries for entry in row for powers in entry), ()))
-    minors = {frozenset(): {(0,) * length: (1, 1)}}
+    minors: dict[frozenset, dict] = {frozenset(): {(0,) * length: (1, 1)}}
     for row in entries:
-        longer = {}
+        longer: dict[frozenset, dict] = {}
         for columns, minor in minors.items():
             for c, entry in enumerate(row):
                 if c not in columns and entry and minor:

@@ -1,11 +1,14 @@
 """The fastest growth over all directions of a wavevector of given length."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 
 import numpy as np
 
 from primer.analysis.pencil import Pencil, growth
 from primer.checks import affordable, instance, real_array, shown
+from primer.types import ArrayLike, Numbers
 
 SCAN = 180  # directions of the first scan: a degree apart on the half circle
 PEAKS = 8  # local maxima followed up
@@ -37,13 +40,13 @@ class MaxGrowth:
     direction: np.ndarray
 
     @property
-    def angle(self):
+    def angle(self) -> Numbers:
         """The angle from the x-axis (radians), of shape s; in one space variable 0 or pi."""
         x, y = self.direction if self.direction.ndim > self.k.ndim else (self.direction, 0 * self.direction)
         return np.arctan2(y, x)
 
 
-def max_growth(pencil, k):
+def max_growth(pencil: Pencil, k: ArrayLike) -> MaxGrowth:
     """The largest growth rate at |xi| = k over all directions: of shape s, for k > 0 of shape s.
 
     A scan of fixed directions can miss the peak altogether: in critical-state soil mechanics at its critical state

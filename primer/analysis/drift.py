@@ -138,7 +138,7 @@ class _Search:
 
     def special(self, F, r, best):
         """Real tau where the Newton polygon of a faster law than ``best`` degenerates."""
-        family = {}
+        family: dict = {}
         for (i, j, l), c in F.items():
             column = family.setdefault((i, j - r * l), {})
             column[l] = column.get(l, 0) + c
@@ -157,7 +157,7 @@ class _Search:
                 slope = [[n * c for c in p] for n, p in enumerate(edge)][1:]
                 meeting = resultant(edge, slope) if len(slope) > 1 else []
             found += _real_roots(meeting)
-        distinct = []
+        distinct: list = []
         for tau in sorted(tau if abs(tau) > REAL else mp.mpf(0) for tau in found):
             if not distinct or abs(tau - distinct[-1]) > REAL * (1 + abs(tau)):
                 distinct.append(tau)
@@ -172,19 +172,19 @@ def _real_roots(p):
 
 def _facets(F):
     """Drift exponents r > 0 of the facets of the Newton polytope whose outer normals are (q, 1, -r)."""
-    top = {}
+    top: dict = {}
     for i, j, l in F:
         top[i, l] = max(j, top.get((i, l), j))
     points = [(i, j, l) for (i, l), j in top.items()]
     # A point with a lower power of k and a higher one of t than another never counts.
     points = [p for p in points if not any(o != p and o[0] == p[0] and o[1] >= p[1] and o[2] <= p[2] for o in points)]
     scale = int(np.lcm.reduce([p[1].denominator for p in points]))
-    points = np.array([(i, int(j * scale), l) for i, j, l in points], dtype=np.int64)
+    corners = np.array([(i, int(j * scale), l) for i, j, l in points], dtype=np.int64)
     found = set()
-    for a, b, c in combinations(range(len(points)), 3):
-        n = np.cross(points[b] - points[a], points[c] - points[a])
+    for a, b, c in combinations(corners, 3):
+        n = np.cross(b - a, c - a)
         n = n if n[1] > 0 else -n
-        if n[1] > 0 and n[2] < 0 and ((points - points[a]) @ n <= 0).all():
+        if n[1] > 0 and n[2] < 0 and ((corners - a) @ n <= 0).all():
             found.add(Fraction(int(-n[2]), int(n[1])) / scale)
     return found
 

@@ -151,7 +151,7 @@ def _start(S, E, n, solvable):
     mu = 4 * _size(S, E) * np.exp(0.7j)
     for _ in range(2):  # the second time with a shift no larger than the largest eigenvalue asks for
         A, rows, columns = _scaled(mu[:, None, None] * E + S)
-        theta = np.linalg.eigvals(np.linalg.solve(A, rows[..., :, None] * columns[..., None, :] * E))
+        theta: np.ndarray = np.linalg.eigvals(np.linalg.solve(A, rows[..., :, None] * columns[..., None, :] * E))
         theta = np.take_along_axis(theta, np.argsort(-np.abs(theta), axis=1), axis=1)[:, :n]
         lam = mu[:, None] - 1 / np.where(theta == 0, TINY, theta)
         mu = np.exp(0.7j) * np.maximum(2 * np.abs(lam).max(axis=1), 1e-8 * np.abs(mu))

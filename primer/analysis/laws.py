@@ -1,23 +1,36 @@
 """Growth laws along one direction, for equations as text or as a pencil."""
 
+from __future__ import annotations
+
+from typing import Any
+
 import mpmath as mp
 import numpy as np
 
 from primer.analysis.pencil import Pencil
-from primer.analysis.puiseux import branches, collected
+from primer.analysis.puiseux import Branch, branches, collected
 from primer.analysis.recover import recovered
 from primer.analysis.roots import DIGITS
 from primer.analysis.symbol import Symbol
 from primer.analysis.symbolic import symbol
 from primer.analysis.text import PDEError
 from primer.checks import real_array, shown
+from primer.types import ArrayLike
 
 
 class NotPolynomialError(ValueError):
     """The entries of a pencil are not polynomials in xi, so that there is no Newton polygon."""
 
 
-def growth_laws(pde, /, direction=None, *, at=None, order="full", **parameters):
+def growth_laws(
+    pde: str | Symbol | Pencil,
+    /,
+    direction: ArrayLike | None = None,
+    *,
+    at: dict[str, Any] | None = None,
+    order: str = "full",
+    **parameters: Any,
+) -> list[Branch]:
     """How each branch lambda(k) behaves along xi = k direction, k -> infinity: by the Newton polygon, exactly.
 
     Parameters
@@ -43,18 +56,20 @@ def growth_laws(pde, /, direction=None, *, at=None, order="full", **parameters):
     0 200.0000
     """
     exact = exact_symbol(pde, at=at, order=order, **parameters)
-    d = np.atleast_1d(real_array("direction", [1, 0][: exact.dim] if direction is None else direction))
-    if d.shape != (exact.dim,) or not d.any():
+    along = np.atleast_1d(real_array("direction", [1, 0][: exact.dim] if direction is None else direction))
+    if along.shape != (exact.dim,) or not along.any():
         raise ValueError(f"direction must be {exact.dim} number(s), not all zero, got {shown(direction)}")
     with mp.workdps(DIGITS):
-        d = [mp.mpf(repr(float(x))) for x in d]
+        d = [mp.mpf(repr(float(x))) for x in along]
         length = mp.sqrt(sum(x**2 for x in d))
         d = [*(x / length for x in d), mp.mpf(1)]
         terms = (((n, a + b), c * d[0] ** a * d[1] ** b) for (n, a, b), c in exact.determinant.items())
         return branches(collected(terms))
 
 
-def exact_symbol(pde, *, at=None, order="full", **parameters):
+def exact_symbol(
+    pde: str | Symbol | Pencil, *, at: dict[str, Any] | None = None, order: str = "full", **parameters: Any
+) -> Symbol:
     """The :class:`Symbol` of a text, a Pencil or a Symbol, its determinant checked: something evolves, and uniquely."""
     if isinstance(pde, str):
         exact = symbol(pde, at=at, order=order, **parameters)

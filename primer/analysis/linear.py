@@ -42,7 +42,7 @@ class System:
 def read(text, given=()):
     """The :class:`System` of a text. ``given`` are names with values: unknowns only if differentiated by name."""
     equations = parse(text)
-    uses = Counter()  # (name, its own derivatives, those of the brackets around it): in the order of the text
+    uses: Counter = Counter()  # (name, its own derivatives, those of the brackets around it): in the order of the text
     for equation in equations:
         for side in equation:
             _collect(side, "", uses)
@@ -67,7 +67,7 @@ def _unknowns(uses, number, given):
     evolved = {base for base, own, around in uses if "t" in own + around}
     order.sort(key=lambda name: name not in evolved)
     direct = {base for base, own, _ in uses if own}
-    wider = (
+    wider: tuple[set, ...] = (
         set(),
         {base for base, _, around in uses if "t" in around},
         {base for base, _, around in uses if around},
@@ -107,7 +107,7 @@ class _Builder:
 
     def build(self, node):
         build = {"+": self.sum, "*": self.product, "-": self.minus, "/": self.reciprocal, "^": self.power}
-        value = build.get(node.kind, getattr(self, node.kind, None))(node)
+        value = (build.get(node.kind) or getattr(self, node.kind))(node)
         if value.has(sp.zoo, sp.nan, sp.oo, sp.S.NegativeInfinity):
             self.fail("a value that is not finite", node)
         if any(power.exp.is_Rational and abs(power.exp) > POWER for power in value.atoms(sp.Pow)):

@@ -1,13 +1,16 @@
 """Frozen-coefficient symbols as matrix pencils, and the growth of the exponentials they admit (section A2.1)."""
 
-from collections.abc import Callable
+from __future__ import annotations
+
 from dataclasses import dataclass, field
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
 from primer.analysis.eigen import degree, finite_eigenvalues
 from primer.checks import affordable, instance, integer, real_array, shown
+from primer.types import ArrayLike, Numbers
 
 _BEYOND = 1e150  # entries from here on have squares that are no numbers
 LARGEST = 12  # the number of finite eigenvalues is found by an expansion of 2^k terms
@@ -39,12 +42,12 @@ class Pencil:
     [-9.]
     """
 
-    S: Callable | np.ndarray
-    E: Callable | np.ndarray
+    S: Any
+    E: Any
     dim: int | None = None
     size: int = field(init=False)
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         for name in ("S", "E"):
             if hasattr(getattr(self, name), "free_symbols"):
                 object.__setattr__(self, name, _from_sympy(name, getattr(self, name)))
@@ -67,20 +70,20 @@ class Pencil:
             )
 
     @property
-    def probe(self):
+    def probe(self) -> np.ndarray:
         """Wavevectors in general position, more of them than the matrices can be wide."""
         j = np.arange(1, 14)
         xi = np.stack([1.1 + 0.37 * np.sin(2.3 * j), -0.7 + 0.41 * np.cos(1.7 * j)])
         return xi if self.dim == 2 else xi[0]
 
     @cached_property
-    def count(self):
+    def count(self) -> int:
         """The number of finite eigenvalues at wavevectors in general position."""
         S, E = self.matrices(self.probe[..., :3])
         return max(degree(s, e) for s, e in zip(S, E, strict=True))
 
     @cached_property
-    def is_real(self):
+    def is_real(self) -> bool:
         """Whether the equations have real coefficients: S(-xi) is the conjugate of S(xi), and E likewise."""
         plus, minus = self.matrices(self.probe), self.matrices(-self.probe)
         return all(np.allclose(a, b.conj(), rtol=1e-12, atol=0) for a, b in zip(plus, minus, strict=True))
@@ -89,7 +92,7 @@ class Pencil:
     def _vectorised(self):
         return {name: _serves_many(getattr(self, name), self.probe, self.size) for name in ("S", "E")}
 
-    def matrices(self, xi):
+    def matrices(self, xi: ArrayLike) -> tuple[np.ndarray, np.ndarray]:
         """(S, E) at wavevectors xi of shape s, or (2,) + s: complex arrays of shape s + (k, k)."""
         xi = self.wavevectors(xi)
         shape = xi.shape if self.dim == 1 else xi.shape[1:]
@@ -101,7 +104,7 @@ class Pencil:
             raise ValueError(f"xi must leave S and E finite, and below {_BEYOND:g}, got {shown(xi)}")
         return S, E
 
-    def wavevectors(self, xi):
+    def wavevectors(self, xi: ArrayLike) -> np.ndarray:
         """xi as a float array, its shape checked."""
         xi = real_array("xi", xi)
         if self.dim == 2 and (xi.ndim == 0 or len(xi) != 2):
@@ -117,7 +120,7 @@ class Pencil:
         values = [np.asarray(f(xi[..., j]), dtype=complex) for j in range(n)]
         return np.array(values).reshape(n, self.size, self.size)
 
-    def eigenvalues(self, xi):
+    def eigenvalues(self, xi: ArrayLike) -> np.ndarray:
         """The finite eigenvalues lambda at xi of shape s, or (2,) + s.
 
         Returns
@@ -132,7 +135,7 @@ class Pencil:
         return np.take_along_axis(lam, order, axis=-1).reshape(*S.shape[:-2], self.count)
 
 
-def growth(pencil, xi):
+def growth(pencil: Pencil, xi: ArrayLike) -> Numbers:
     """The growth rate max Re lambda over the finite eigenvalues, at xi of shape s or (2,) + s: shape s.
 
     -inf if there is none (no equation contains a time derivative).

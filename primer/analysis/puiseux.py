@@ -147,10 +147,10 @@ def _expand(P, above, terms, conservative, last):
 
 def hull_of(P):
     """Vertices of the upper hull of the exponents (i, j) of P, from left to right."""
-    top = {}
+    top: dict = {}
     for i, j in P:
         top[i] = max(j, top.get(i, j))
-    hull = []
+    hull: list[tuple] = []
     for i in sorted(top):
         while len(hull) > 1 and _turns_left(hull[-2], hull[-1], (i, top[i])):
             hull.pop()
@@ -176,7 +176,8 @@ def shifted_by(P, c, q, place):
 
 def collected(terms):
     """The polynomial {powers: sum} of terms (powers, coefficient), without the sums that cancel."""
-    value, size = defaultdict(mp.mpc), defaultdict(mp.mpf)
+    value: dict = defaultdict(mp.mpc)
+    size: dict = defaultdict(mp.mpf)
     for powers, a in terms:
         value[powers] += a
         size[powers] += abs(a)

@@ -40,7 +40,7 @@ def _fits(pencil, tables):
 
 def _symbol(tables, dim):
     size = tables[0].shape[-1]
-    entries = [[{} for _ in range(size)] for _ in range(size)]
+    entries: list[list[dict]] = [[{} for _ in range(size)] for _ in range(size)]
     for n, table in enumerate(tables):
         for (a, b, r, c), value in np.ndenumerate(table):
             # Rounding errors of the interpolation, and of the value itself.

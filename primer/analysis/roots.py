@@ -58,7 +58,8 @@ def roots(p, zero=ZERO):
 
 
 def _scaled_roots(p, zero):
-    found, multiplicity = [], 1
+    found: list[tuple] = []
+    multiplicity = 1
     shared = common(p, derivative(p), zero)
     simple, _ = divided(p, shared)
     while len(simple) > 1:

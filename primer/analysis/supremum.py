@@ -38,7 +38,7 @@ def supremum(symbol, law, real):
         # What double precision takes for growth, or for none, may be rounding: ask with more digits.
         exact = exact_growth(symbol, _wavevector(symbol.dim, s[n], angle[m]))
         best_so_far = max(value for value, _ in values)
-        values.append((exact, 10.0 ** s[n]))
+        values.append((exact, float(10.0 ** s[n])))
         if exact < best_so_far - 0.5 * (abs(exact) + abs(best_so_far)):
             continue  # no maximum can be so much higher than the scan's nearest place
         if followed < PLACES and rate[n, m] != 0 and abs(exact - rate[n, m]) <= 1e-3 * abs(exact):

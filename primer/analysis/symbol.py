@@ -3,6 +3,8 @@
 A polynomial is a dict {(n, a, b): c} standing for the sum of c lambda^n xi_1^a xi_2^b; b = 0 in one space variable.
 """
 
+from __future__ import annotations
+
 from collections import defaultdict
 from dataclasses import dataclass
 from functools import cached_property
@@ -14,6 +16,7 @@ from primer.analysis.determinant import determinant
 from primer.analysis.pencil import Pencil
 from primer.analysis.roots import DIGITS, ZERO
 from primer.analysis.text import PDEError
+from primer.types import Multiplier
 
 
 @dataclass(frozen=True)
@@ -38,7 +41,7 @@ class Symbol:
             rows = [[{p: c * i ** (p[1] + p[2]) for p, c in entry.items()} for entry in row] for row in self.entries]
             return determinant(rows, ZERO)
 
-    def pencil(self, multiplier=None):
+    def pencil(self, multiplier: Multiplier | None = None) -> Pencil:
         """The symbol as numbers: a :class:`Pencil`, with extra unknowns that stand for u_t where u_tt occurs.
 
         ``multiplier(xi, m)`` replaces (i xi)^m; it is called with m >= 1.
@@ -50,7 +53,8 @@ class Symbol:
             place[c, 0] = c
             for n in range(1, order):
                 place[c, n], width = width, width + 1
-        S, E = defaultdict(list), defaultdict(list)
+        S: dict = defaultdict(list)
+        E: dict = defaultdict(list)
         for r, row in enumerate(self.entries):
             for c, entry in enumerate(row):
                 for (n, a, b), value in entry.items():
@@ -60,9 +64,9 @@ class Symbol:
             if n:
                 E[column, place[c, n - 1]].append((1, 0, 0))
                 S[column, column].append((-1, 0, 0))
-        matrices = (_Matrix(sums, width, self.dim, multiplier) for sums in (S, E))
+        matrices = [_Matrix(sums, width, self.dim, multiplier) for sums in (S, E)]
         try:
-            return Pencil(*matrices, self.dim)
+            return Pencil(matrices[0], matrices[1], self.dim)
         except ValueError as singular:  # the equations do not determine the unknowns
             raise PDEError(str(singular)) from None
 
@@ -74,7 +78,7 @@ class _Matrix:
     sums: dict
     width: int
     dim: int
-    multiplier: object
+    multiplier: Multiplier | None
 
     def __call__(self, xi):
         axes = [xi] if self.dim == 1 else list(xi)

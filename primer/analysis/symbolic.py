@@ -1,6 +1,9 @@
 """A PDE as text: linearise, freeze, and look for exponentials (the three steps of section A2.1)."""
 
+from __future__ import annotations
+
 from contextlib import suppress
+from typing import Any
 
 import mpmath as mp
 import numpy as np
@@ -8,14 +11,16 @@ import sympy as sp
 from sympy.matrices.exceptions import NonInvertibleMatrixError
 
 from primer.analysis.linear import read
+from primer.analysis.pencil import Pencil
 from primer.analysis.roots import DIGITS
 from primer.analysis.symbol import Symbol
 from primer.analysis.text import PDEError
 from primer.analysis.values import checked, evaluated, substituted
 from primer.checks import shown
+from primer.types import ArrayLike, Multiplier
 
 
-def symbol(text, *, at=None, order="full", **parameters):
+def symbol(text: str, *, at: dict[str, Any] | None = None, order: str = "full", **parameters: Any) -> Symbol:
     """The exact :class:`Symbol` of a PDE, linearised about a base state and frozen.
 
     Parameters
@@ -35,7 +40,7 @@ def symbol(text, *, at=None, order="full", **parameters):
     missing, entries = {}, []
     with mp.workdps(DIGITS):
         for slopes in system.slopes:
-            row = {name: {} for name in system.unknowns}
+            row: dict[str, dict] = {name: {} for name in system.unknowns}
             for (name, power), slope in sorted(slopes.items(), key=lambda item: -sum(item[0][1][1:])):
                 if order == "maximal" and _is_lower(power, row[name]):
                     continue
@@ -52,7 +57,15 @@ def symbol(text, *, at=None, order="full", **parameters):
     return Symbol(tuple(entries), system.dim)
 
 
-def growth_rates(text, xi, *, at=None, order="full", multiplier=None, **parameters):
+def growth_rates(
+    text: str,
+    xi: ArrayLike,
+    *,
+    at: dict[str, Any] | None = None,
+    order: str = "full",
+    multiplier: Multiplier | None = None,
+    **parameters: Any,
+) -> np.ndarray:
     """The growth rates lambda of the perturbations e^{i xi x + lambda t} of a PDE at wavenumbers xi.
 
     Parameters
@@ -75,7 +88,14 @@ def growth_rates(text, xi, *, at=None, order="full", multiplier=None, **paramete
     return pencil(text, at=at, order=order, multiplier=multiplier, **parameters).eigenvalues(xi)
 
 
-def pencil(text, *, at=None, order="full", multiplier=None, **parameters):
+def pencil(
+    text: str,
+    *,
+    at: dict[str, Any] | None = None,
+    order: str = "full",
+    multiplier: Multiplier | None = None,
+    **parameters: Any,
+) -> Pencil:
     """The symbol of a PDE as a :class:`Pencil` of numbers; arguments as for :func:`growth_rates`."""
     if multiplier is not None and not callable(multiplier):
         raise TypeError(f"multiplier must be a function of xi and m, got {shown(multiplier)}")
@@ -90,7 +110,7 @@ def pencil(text, *, at=None, order="full", multiplier=None, **parameters):
     return exact.pencil(multiplier)
 
 
-def linearise(text, *, at=None, order="full", **parameters):
+def linearise(text: str, *, at: dict[str, Any] | None = None, order: str = "full", **parameters: Any) -> sp.Matrix:
     """The symbol of a PDE as a sympy matrix, for eq. (toy-mat).
 
     Names without a value stay symbols; so do the wavenumber xi, or xi_1 and xi_2 in two space variables. Other
@@ -109,9 +129,9 @@ def linearise(text, *, at=None, order="full", **parameters):
     system, values = _read(text, at, order, parameters)
     lam, *xi = sp.symbols("lambda xi") if system.dim == 1 else sp.symbols("lambda xi_1 xi_2")
     size = len(system.unknowns)
-    parts = {}
+    parts: dict = {}
     for r, slopes in enumerate(system.slopes):
-        row = {name: {} for name in system.unknowns}
+        row: dict[str, dict] = {name: {} for name in system.unknowns}
         for (name, power), slope in sorted(slopes.items(), key=lambda item: -sum(item[0][1][1:])):
             coefficient = substituted(slope, values)
             if not (order == "maximal" and _is_lower(power, row[name])) and coefficient != 0:

@@ -44,7 +44,7 @@ class PDEError(ValueError):
     True
     """
 
-    def __init__(self, problem, text="", place=None):
+    def __init__(self, problem: str, text: str = "", place: int | None = None) -> None:
         super().__init__(problem if place is None else f"{problem}\n{_marked(text, place)}")
 
 
@@ -94,7 +94,8 @@ def _marked(text, place):
 def _tokens(text):
     place = depth = count = 0
     while match := _TOKEN.match(text, place):
-        kind, value = match.lastgroup, match[match.lastgroup]
+        kind = match.lastgroup or ""  # which no match is without
+        value = match[kind]
         if kind == "imaginary":
             kind, value = "number", match["number"]
         if kind == "name" and not value.isidentifier():
@@ -140,7 +141,7 @@ class _Parser:
         return token
 
     def equations(self):
-        found = []
+        found: list[tuple] = []
         while True:
             while self.at(";", "\n"):
                 self.take()

@@ -2,6 +2,7 @@
 
 import numbers
 from fractions import Fraction
+from typing import Any
 
 import mpmath as mp
 import numpy as np
@@ -35,7 +36,7 @@ def checked(system, at, parameters):
     return values
 
 
-def _exact(name, value):
+def _exact(name, value: Any):
     """A number as a sympy one; a float stands for its shortest decimal, so that 0.1 is 1/10."""
     if isinstance(value, (bool, np.bool_)) or not isinstance(value, (numbers.Number, np.number, sp.Expr)):
         raise TypeError(f"{name} must be a number, got {shown(value)} ({type(value).__name__})")
@@ -45,7 +46,7 @@ def _exact(name, value):
         return value
     if isinstance(value, (Fraction, numbers.Integral)):
         return sp.Rational(int(value.numerator), int(value.denominator))
-    number = complex(value)
+    number = complex(value)  # type: ignore[arg-type]  # the abstract Number does not say that it can
     if not np.isfinite(number):
         raise ValueError(f"{name} must be a finite number, got {shown(value)}")
     real, imaginary = (sp.Rational(repr(part)) for part in (number.real, number.imag))

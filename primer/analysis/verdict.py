@@ -4,14 +4,17 @@ import math
 from dataclasses import dataclass
 from enum import StrEnum
 from fractions import Fraction
+from typing import Any
 
 import numpy as np
 
 from primer.analysis.directions import max_growth
 from primer.analysis.drift import worst_law
 from primer.analysis.laws import NotPolynomialError, exact_symbol
+from primer.analysis.pencil import Pencil
 from primer.analysis.puiseux import branches
 from primer.analysis.supremum import exact_growth, supremum
+from primer.analysis.symbol import Symbol
 
 
 class Kind(StrEnum):
@@ -52,7 +55,7 @@ class Verdict:
     """
 
     kind: Kind
-    exponent: Fraction
+    exponent: Fraction | float
     coefficient: float
     direction: tuple
     bound: float
@@ -60,7 +63,14 @@ class Verdict:
     reason: str
 
 
-def verdict(pde, /, *, at=None, order="full", **parameters):
+def verdict(
+    pde: str | Symbol | Pencil,
+    /,
+    *,
+    at: dict[str, Any] | None = None,
+    order: str = "full",
+    **parameters: Any,
+) -> Verdict:
     """Whether a PDE is linearly ill-posed, about a base state and frozen at a point: steps 1 to 3 of section A2.1.
 
     Parameters

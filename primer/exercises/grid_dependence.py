@@ -2,7 +2,7 @@
 
 import math
 
-from primer.exercises.answers import check, variant
+from primer.exercises.answers import Feedback, check, variant
 from primer.problems.toy import Toy
 from primer.study.spectrum import growth
 
@@ -11,12 +11,12 @@ def _first(seed):
     return variant("03_1", seed, n=(48, 36, 40, 60, 72, 80))
 
 
-def ask_03_1(seed=0):
+def ask_03_1(seed: int = 0) -> str:
     """The question: where Dist comes to rest."""
     return f"With a = 1.5 on N = {_first(seed)['n']} points: where does Dist come to rest?"
 
 
-def check_03_1(answer, seed=0):
+def check_03_1(answer: float, seed: int = 0) -> Feedback:
     """Whether ``answer`` is h/sin h - 1 with h = 2 pi/N, to one per cent; a ``Feedback``.
 
     Central differences of sin x are (sin h/h) cos x, so that their steady state is a - (h/sin h) cos x.
@@ -40,7 +40,7 @@ def _second(seed):
     return variant("03_2", seed, a=(0.5, 0.2, 0.7, 0.6, 0.4), eps=(0.02, 0.01, 0.005, 0.04))
 
 
-def ask_03_2(seed=0):
+def ask_03_2(seed: int = 0) -> str:
     """The question: the frozen threshold."""
     given = _second(seed)
     return (
@@ -49,7 +49,7 @@ def ask_03_2(seed=0):
     )
 
 
-def check_03_2(answer, seed=0):
+def check_03_2(answer: float, seed: int = 0) -> Feedback:
     """Whether ``answer`` is pi/sqrt(eps (1 - a)), to one per cent; a ``Feedback``.
 
     On the grid xi^2 becomes (4/h^2) sin^2(xi h/2), at most 4/h^2 = N^2/pi^2; at u* = a - 1 growth needs
@@ -75,7 +75,7 @@ def _third(seed):
     return variant("03_3", seed, n=(100, 80, 120, 150), digits=(3, 2, 5, 8))
 
 
-def ask_03_3(seed=0):
+def ask_03_3(seed: int = 0) -> str:
     """The question: what more digits buy."""
     given = _third(seed)
     rate = growth(Toy(0.5), given["n"])
@@ -85,7 +85,7 @@ def ask_03_3(seed=0):
     )
 
 
-def check_03_3(answer, seed=0):
+def check_03_3(answer: float, seed: int = 0) -> Feedback:
     """Whether ``answer`` is digits ln(10)/growth, to two per cent; a ``Feedback``."""
     given = _third(seed)
     rate = growth(Toy(0.5), given["n"])

@@ -1,7 +1,10 @@
 """``primer granular``: the hypotheses, the verdict and the limit of a granular law at a base state."""
 
+from __future__ import annotations
+
 import json
 import math
+from collections.abc import Callable
 
 from primer.checks import real, shown
 from primer.granular.compaction import Compaction
@@ -12,6 +15,7 @@ from primer.granular.materials import EXAMPLE_COMPACTION, GLASS_BEADS
 from primer.granular.posedness import growth_limit, verdict
 from primer.granular.rheology import CIDR, CSSM, Coulomb, IncompressibleMuI
 from primer.granular.state import BaseState
+from primer.types import Law
 
 LAWS = ("coulomb", "mui", "cssm", "cidr")
 
@@ -62,12 +66,13 @@ def report(law, p, phi, I, d=1.0, rho=1.0, mu1=None, mu2=None, I0=None, mu=None,
     compaction = Compaction(_or(phi0, packing.phi0), _or(eps, packing.eps), _or(C0, packing.C0))
     state = BaseState(*(real(name, value, above=0) for name, value in zip(_STATE, (p, phi, I, d, rho), strict=True)))
     constant = _or(mu, float(friction.mu(I)))
-    made = {
+    laws: dict[str, Callable[[], Law]] = {
         "coulomb": lambda: Coulomb(constant),
         "mui": lambda: IncompressibleMuI(friction),
         "cssm": lambda: CSSM(constant, compaction),
         "cidr": lambda: CIDR(friction, compaction),
-    }[law]()
+    }
+    made = laws[law]()
     c, holds, v = coefficients(made, state), conditions(made, state), verdict(made, state)
     answer = {
         "law": repr(made),

@@ -1,8 +1,11 @@
 """How the strength of the packing depends on the solids fraction: C(phi) of eq. (form-of-C)."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 
 from primer.checks import real, real_array, shown
+from primer.types import ArrayLike, Numbers
 
 
 @dataclass(frozen=True)
@@ -30,14 +33,14 @@ class Compaction:
     eps: float
     C0: float
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         object.__setattr__(self, "phi0", real("phi0", self.phi0, above=0, below=1))
         object.__setattr__(self, "eps", real("eps", self.eps, above=0))
         object.__setattr__(self, "C0", real("C0", self.C0, above=0))
         if self.phi0 + self.eps > 1 + 1e-15:
             raise ValueError(f"eps must be <= 1 - phi0 (a solids fraction is at most 1), got {self.eps!r}")
 
-    def C(self, phi):
+    def C(self, phi: ArrayLike) -> Numbers:
         """C(phi), of the shape of phi: 0 at phi0, infinite as phi -> phi0 + eps.
 
         Raises
@@ -47,12 +50,12 @@ class Compaction:
         z = self._z(phi)
         return self.C0 * (z / (1 - z))
 
-    def dC(self, phi):
+    def dC(self, phi: ArrayLike) -> Numbers:
         """C'(phi) = (C0/eps)/(1 - z)^2."""
         z = self._z(phi)
         return self.C0 / self.eps / (1 - z) ** 2
 
-    def phi(self, C):
+    def phi(self, C: ArrayLike) -> Numbers:
         """The solids fraction at which the strength is C >= 0: the inverse function, as eq. (phi-of-tau) needs it."""
         C = real_array("C", C)
         if (C < 0).any():
@@ -67,7 +70,7 @@ class Compaction:
         return z
 
 
-def has_C(compaction):
+def has_C(compaction: object) -> None:
     """Raise TypeError unless there are the functions C(phi) and dC(phi)."""
     if isinstance(compaction, type) or not all(callable(getattr(compaction, name, None)) for name in ("C", "dC")):
         raise TypeError(f"compaction must be a Compaction(phi0, eps, C0), got {shown(compaction)}")

@@ -1,5 +1,7 @@
 """The paper's hypotheses and the classical criteria, each as a closed form that reports what holds."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 
 import numpy as np
@@ -8,6 +10,7 @@ from primer.checks import real, shown
 from primer.granular.friction import as_friction, inertial
 from primer.granular.linearisation import coefficients
 from primer.granular.state import BaseState
+from primer.types import ArrayLike, FrictionLaw, HasCriticalState, Law, Numbers
 
 
 @dataclass(frozen=True, eq=False)
@@ -33,12 +36,12 @@ class Conditions:
     b: np.ndarray
 
     @property
-    def theorem(self):
+    def theorem(self) -> Numbers:
         """Whether all three hold: then the paper's theorem says linearly well posed."""
         return self.equality & self.a & self.b
 
 
-def conditions(law, state):
+def conditions(law: Law, state: BaseState) -> Conditions:
     """Which of (Cmu-well-posed-cond) and (ineq-for-thm a, b) hold for a law at a base state.
 
     Returns
@@ -77,7 +80,7 @@ class IncompressibleCriterion:
     growth: np.ndarray
 
 
-def incompressible_criterion(friction, I):
+def incompressible_criterion(friction: FrictionLaw, I: ArrayLike) -> IncompressibleCriterion:
     """The ``IncompressibleCriterion`` of a friction law with mu(I) and dmu(I), for eq. (mu(I)-system-mom)."""
     friction, I = as_friction(friction), inertial("I", I)
     mu = friction.mu(I)
@@ -89,7 +92,7 @@ def incompressible_criterion(friction, I):
     return IncompressibleCriterion(n, B, C, (np.abs(B) < 1) & ((C <= 0) | (n >= 0.5)), growth)
 
 
-def neutral_inertial_numbers(friction, low=1e-12, high=1e12):
+def neutral_inertial_numbers(friction: FrictionLaw, low: float = 1e-12, high: float = 1e12) -> np.ndarray:
     """The inertial numbers at which the incompressible mu(I)-rheology changes between ill posed and well posed.
 
     Returns
@@ -126,7 +129,9 @@ def neutral_inertial_numbers(friction, low=1e-12, high=1e12):
     return np.exp((left + right) / 2)
 
 
-def critical_state(law, phi, I=0.1, d=1.0, rho=1.0):
+def critical_state(
+    law: HasCriticalState, phi: ArrayLike, I: ArrayLike = 0.1, d: ArrayLike = 1.0, rho: ArrayLike = 1.0
+) -> BaseState:
     """The base state at which a compressible law shears without a change of volume, f = 0, eq. (crit-state-cond).
 
     p = mu C(phi) in CSSM, whatever I, and p = beta(I) C(phi)/2 in CIDR.

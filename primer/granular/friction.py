@@ -1,12 +1,16 @@
 """Friction laws mu(I) and the alpha(I), beta(I) that Lemma 1 makes of them."""
 
+from __future__ import annotations
+
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
 from primer.checks import affordable, broadcast, function, real, real_array, shown
+from primer.types import ArrayLike, FrictionLaw, Numbers
 
 #: The tail constant of the connection formula: pi/sin(2 pi/5) = int_0^inf s^{-3/5}/(1 + s) ds.
 _TAIL = math.pi / math.sin(2 * math.pi / 5)
@@ -43,39 +47,39 @@ class MuI:
     mu2: float
     I0: float
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         object.__setattr__(self, "mu1", real("mu1", self.mu1, above=0))
         object.__setattr__(self, "mu2", real("mu2", self.mu2))
         object.__setattr__(self, "I0", real("I0", self.I0, above=0))
         if not self.mu2 > self.mu1:
             raise ValueError(f"mu2 must be > mu1 = {self.mu1!r} so that friction rises with I, got {self.mu2!r}")
 
-    def mu(self, I):
+    def mu(self, I: ArrayLike) -> Numbers:
         """mu(I), of the shape of I."""
         r = self._ratio(I)
         return self.mu1 + (self.mu2 - self.mu1) * (r / (1 + r))
 
-    def dmu(self, I):
+    def dmu(self, I: ArrayLike) -> Numbers:
         """mu'(I) = (mu2 - mu1)/I0/(1 + I/I0)^2 > 0."""
         return (self.mu2 - self.mu1) / self.I0 * (1 / (1 + self._ratio(I))) ** 2
 
-    def ddmu(self, I):
+    def ddmu(self, I: ArrayLike) -> Numbers:
         """mu''(I) = -2 (mu2 - mu1)/I0^2/(1 + I/I0)^3 < 0."""
         return -2 * (self.mu2 - self.mu1) / self.I0**2 * (1 / (1 + self._ratio(I))) ** 3
 
-    def alpha(self, I):
+    def alpha(self, I: ArrayLike) -> Numbers:
         """alpha(I) of eq. (Cmu-formulas-for-alpha)."""
         return 0.8 * self.mu(I) + 1.2 * self.mu1 + 0.48 * (self.mu2 - self.mu1) * _J(self._ratio(I))[0]
 
-    def beta(self, I):
+    def beta(self, I: ArrayLike) -> Numbers:
         """beta(I) of eq. (Cmu-formulas-for-beta)."""
         return -0.4 * self.mu(I) + 2.4 * self.mu1 + 0.96 * (self.mu2 - self.mu1) * _J(self._ratio(I))[0]
 
-    def dalpha(self, I):
+    def dalpha(self, I: ArrayLike) -> Numbers:
         """alpha'(I) = 4/5 mu' + 12/25 (mu2 - mu1)/I0 J'(I/I0)."""
         return 0.8 * self.dmu(I) + 0.48 * (self.mu2 - self.mu1) / self.I0 * _J(self._ratio(I))[1]
 
-    def dbeta(self, I):
+    def dbeta(self, I: ArrayLike) -> Numbers:
         """beta'(I) = -2/5 mu' + 24/25 (mu2 - mu1)/I0 J'(I/I0)."""
         return -0.4 * self.dmu(I) + 0.96 * (self.mu2 - self.mu1) / self.I0 * _J(self._ratio(I))[1]
 
@@ -105,28 +109,28 @@ class Friction:
     mu: Callable
     dmu: Callable
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         for name in ("mu", "dmu"):
             function(name, getattr(self, name), "I")
 
-    def alpha(self, I):
+    def alpha(self, I: ArrayLike) -> Numbers:
         """alpha(I) of eq. (Cmu-formulas-for-alpha)."""
         return 0.8 * self.mu(inertial("I", I)) + 0.48 * _mean(self.mu, I, -3 / 5)
 
-    def beta(self, I):
+    def beta(self, I: ArrayLike) -> Numbers:
         """beta(I) of eq. (Cmu-formulas-for-beta)."""
         return -0.4 * self.mu(inertial("I", I)) + 0.96 * _mean(self.mu, I, -3 / 5)
 
-    def dalpha(self, I):
+    def dalpha(self, I: ArrayLike) -> Numbers:
         """alpha'(I)."""
         return 0.8 * self.dmu(inertial("I", I)) + 0.48 * _mean(self.dmu, I, 2 / 5)
 
-    def dbeta(self, I):
+    def dbeta(self, I: ArrayLike) -> Numbers:
         """beta'(I)."""
         return -0.4 * self.dmu(inertial("I", I)) + 0.96 * _mean(self.dmu, I, 2 / 5)
 
 
-def as_friction(law):
+def as_friction(law: FrictionLaw) -> Any:
     """``law`` if it has alpha and beta, else a ``Friction`` of its mu and dmu.
 
     Raises
@@ -140,7 +144,7 @@ def as_friction(law):
     raise TypeError(f"friction must have the functions mu(I) and dmu(I), as MuI or Friction(mu, dmu), got {shown(law)}")
 
 
-def inertial(name, I):
+def inertial(name: str, I: ArrayLike) -> np.ndarray:
     """I as an array of finite numbers >= 0, or one sentence why not."""
     I = real_array(name, I)
     if (I < 0).any():
@@ -148,11 +152,11 @@ def inertial(name, I):
     return I
 
 
-def numbers(p, phi, I):
+def numbers(p: ArrayLike, phi: ArrayLike, I: ArrayLike) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """(p, phi, I) as arrays of finite numbers, I >= 0, whose shapes broadcast, or one sentence why not."""
-    arrays = {"p": real_array("p", p), "phi": real_array("phi", phi), "I": inertial("I", I)}
-    broadcast(**arrays)
-    return tuple(array[()] for array in arrays.values())
+    p, phi, I = real_array("p", p), real_array("phi", phi), inertial("I", I)
+    broadcast(p=p, phi=phi, I=I)
+    return p[()], phi[()], I[()]
 
 
 def _J(r):

@@ -4,12 +4,19 @@ Everything is in the frame of the base state's stress: xi_1 runs along the major
 flow only turns lambda into lambda + i <u*, xi> and is left out.
 """
 
+from __future__ import annotations
+
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from primer.checks import real_array
-from primer.granular.state import admit
+from primer.granular.state import BaseState, admit
+from primer.types import Law, Numbers
+
+if TYPE_CHECKING:
+    from primer.analysis.pencil import Pencil
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,12 +43,12 @@ class Coefficients:
     incompressible: bool = False
 
     @property
-    def density(self):
+    def density(self) -> Numbers:
         """rho* phi*, the mass per volume."""
         return self.rho * self.phi
 
 
-def coefficients(law, state):
+def coefficients(law: Law, state: BaseState) -> Coefficients:
     """The ``Coefficients`` of a law at a base state, eqs. (e22-a) and (e22-b), arrays of the state's shape.
 
     Raises
@@ -69,7 +76,7 @@ def coefficients(law, state):
     return Coefficients(**arrays, incompressible=getattr(law, "incompressible", False))
 
 
-def linearise(law, state):
+def linearise(law: Law, state: BaseState) -> Pencil:
     """The pencil lambda E q = -S(xi) q of eqs. (e24) to (e26) for one base state.
 
     The unknowns are q = (u_1, u_2, phi, p, psi), and S is 5 x 5; the column of p carries B and the fourth row C, which

@@ -68,14 +68,14 @@ def noise_after(law, state, n, t, side=200.0, seed=1, smooth=2.5):
     moving = np.abs(q).any(axis=0)
     m = np.stack(np.meshgrid(*[np.fft.fftfreq(n, 1 / n)] * 2, indexing="ij"))[:, moving]
     xi = 2 * np.pi / side * m
-    if c.incompressible:
-        step, value = _step_incompressible(c, xi, q[:, moving], t / _PARTS)
-    else:
-        from scipy.linalg import expm
-
-        step, value = expm(-reduced(c, xi) * (t / _PARTS)), q[:, moving].T
-    values = [value]
     with np.errstate(over="ignore", invalid="ignore"):
+        if c.incompressible:
+            step, value = _step_incompressible(c, xi, q[:, moving], t / _PARTS)
+        else:
+            from scipy.linalg import expm
+
+            step, value = expm(-reduced(c, xi) * (t / _PARTS)), q[:, moving].T
+        values = [value]
         for _ in range(_PARTS):
             values.append((step @ values[-1][..., None])[..., 0])
     if not np.isfinite(values).all():

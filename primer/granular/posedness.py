@@ -1,8 +1,11 @@
 """Well posed or ill posed: the verdict on a law at a base state."""
 
+from __future__ import annotations
+
 import math
 from dataclasses import fields, replace
 from fractions import Fraction
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -10,9 +13,14 @@ from primer.granular.dispersion import at, dispersion, growth_rate
 from primer.granular.fastest import fastest
 from primer.granular.limits import leading
 from primer.granular.linearisation import coefficients
+from primer.granular.state import BaseState
+from primer.types import ArrayLike, Law, Numbers
+
+if TYPE_CHECKING:
+    from primer.analysis.verdict import Verdict
 
 
-def verdict(law, state):
+def verdict(law: Law, state: BaseState) -> Verdict:
     """Whether the frozen equations of a law are linearly well posed at a base state, and how fast they grow if not.
 
     Linearly well posed is eq. (wellp-first-formula).
@@ -33,9 +41,11 @@ def verdict(law, state):
     lead = leading(c)
     bound = np.where(lead.ill_posed, np.inf, np.where(np.isnan(lead.limit), np.nan, np.maximum(lead.limit, 0)))
     bound = _with_long_waves(c, bound)
-    kind = np.where(lead.ill_posed, Kind.ILL_POSED, np.where(np.isnan(lead.exponent), Kind.UNDECIDED, Kind.WELL_POSED))
+    kind: Any = np.where(
+        lead.ill_posed, Kind.ILL_POSED, np.where(np.isnan(lead.exponent), Kind.UNDECIDED, Kind.WELL_POSED)
+    )
     rows = zip(*(np.ravel(v) for v in (kind, lead.exponent, lead.coefficient, lead.limit, bound, lead.x)), strict=True)
-    reason = np.array([_reason(c.incompressible, *row) for row in rows], dtype=object).reshape(kind.shape)
+    reason: Any = np.array([_reason(c.incompressible, *row) for row in rows], dtype=object).reshape(kind.shape)
     direction = _direction(lead.x)
     if kind.ndim:
         return Verdict(kind, lead.exponent, lead.coefficient, direction, bound, bound > 0, reason)
@@ -51,7 +61,7 @@ def verdict(law, state):
     )
 
 
-def growth_limit(law, state):
+def growth_limit(law: Law, state: BaseState) -> Numbers:
     """The largest growth rate over all directions as |xi| -> infinity, in closed form, of the state's shape.
 
     lambda_3 -> -phi N(x)/Delta(x), see ``dispersion``, a quotient of quadratics in x = cos 2 theta. inf where the law
@@ -68,7 +78,7 @@ def growth_limit(law, state):
     return leading(coefficients(law, state)).limit
 
 
-def largest_growth(law, state, k):
+def largest_growth(law: Law, state: BaseState, k: ArrayLike) -> tuple[Numbers, np.ndarray]:
     """(growth, direction): the largest growth rate at |xi| = k over all directions, and a unit vector (2,) + shape.
 
     The growth rates are those of eq. (e24).

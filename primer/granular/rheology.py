@@ -8,6 +8,8 @@ A law may say more: ``p_max(phi, I)``, the pressure at which Y falls to zero, an
 declares f = 0 and phi constant.
 """
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
@@ -17,6 +19,7 @@ from primer.checks import real
 from primer.granular.ansatz import Compressible
 from primer.granular.compaction import Compaction, has_C
 from primer.granular.friction import as_friction, numbers
+from primer.types import ArrayLike, Numbers
 
 
 class _Incompressible:
@@ -24,7 +27,7 @@ class _Incompressible:
 
     incompressible: ClassVar[bool] = True
 
-    def f(self, p, phi, I):
+    def f(self, p: ArrayLike, phi: ArrayLike, I: ArrayLike) -> Numbers:
         """0: the flow is isochoric."""
         p, phi, I = numbers(p, phi, I)
         return np.zeros(np.broadcast_shapes(np.shape(p), np.shape(phi), np.shape(I)))[()]
@@ -46,20 +49,20 @@ class Coulomb(_Incompressible):
 
     mu: float
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         object.__setattr__(self, "mu", real("mu", self.mu, above=0))
 
-    def Y(self, p, phi, I):
+    def Y(self, p: ArrayLike, phi: ArrayLike, I: ArrayLike) -> Numbers:
         """mu p."""
         p, phi, I = numbers(p, phi, I)
         return self.mu * p + self.f(p, phi, I)
 
-    def Y_p(self, p, phi, I):
+    def Y_p(self, p: ArrayLike, phi: ArrayLike, I: ArrayLike) -> Numbers:
         """mu."""
         p, phi, I = numbers(p, phi, I)
         return self.mu + self.f(p, phi, I)
 
-    def Y_I(self, p, phi, I):
+    def Y_I(self, p: ArrayLike, phi: ArrayLike, I: ArrayLike) -> Numbers:
         """0."""
         p, phi, I = numbers(p, phi, I)
         return self.f(p, phi, I)
@@ -80,20 +83,20 @@ class IncompressibleMuI(_Incompressible):
 
     friction: Any
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         object.__setattr__(self, "friction", as_friction(self.friction))
 
-    def Y(self, p, phi, I):
+    def Y(self, p: ArrayLike, phi: ArrayLike, I: ArrayLike) -> Numbers:
         """mu(I) p."""
         p, phi, I = numbers(p, phi, I)
         return self.friction.mu(I) * p + self.f(p, phi, I)
 
-    def Y_p(self, p, phi, I):
+    def Y_p(self, p: ArrayLike, phi: ArrayLike, I: ArrayLike) -> Numbers:
         """mu(I)."""
         p, phi, I = numbers(p, phi, I)
         return self.friction.mu(I) + self.f(p, phi, I)
 
-    def Y_I(self, p, phi, I):
+    def Y_I(self, p: ArrayLike, phi: ArrayLike, I: ArrayLike) -> Numbers:
         """mu'(I) p."""
         p, phi, I = numbers(p, phi, I)
         return self.friction.dmu(I) * p + self.f(p, phi, I)
@@ -118,15 +121,15 @@ class CSSM(Compressible):
     mu: float
     compaction: Compaction
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         object.__setattr__(self, "mu", real("mu", self.mu, above=0))
         has_C(self.compaction)
 
-    def a(self, I):
+    def a(self, I: ArrayLike) -> Numbers:
         """2 mu."""
         return 2 * self.mu + 0 * np.asarray(I)
 
-    def da(self, I):
+    def da(self, I: ArrayLike) -> Numbers:
         """0."""
         return 0.0 * np.asarray(I)
 
@@ -155,22 +158,22 @@ class CIDR(Compressible):
     friction: Any
     compaction: Compaction
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         object.__setattr__(self, "friction", as_friction(self.friction))
         has_C(self.compaction)
 
-    def a(self, I):
+    def a(self, I: ArrayLike) -> Numbers:
         """alpha(I)."""
         return self.friction.alpha(I)
 
-    def b(self, I):
+    def b(self, I: ArrayLike) -> Numbers:
         """beta(I)."""
         return self.friction.beta(I)
 
-    def da(self, I):
+    def da(self, I: ArrayLike) -> Numbers:
         """alpha'(I)."""
         return self.friction.dalpha(I)
 
-    def db(self, I):
+    def db(self, I: ArrayLike) -> Numbers:
         """beta'(I)."""
         return self.friction.dbeta(I)

@@ -1,10 +1,13 @@
 """The base state at which the equations are frozen."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 
 import numpy as np
 
 from primer.checks import instance, real_array, shown
+from primer.types import Law, Numbers
 
 _LAW = "Y", "Y_p", "Y_phi", "Y_I", "f", "f_p", "f_phi", "f_I"
 
@@ -34,13 +37,13 @@ class BaseState:
     0.02236
     """
 
-    p: float
-    phi: float
-    I: float
-    d: float = 1.0
-    rho: float = 1.0
+    p: Numbers
+    phi: Numbers
+    I: Numbers
+    d: Numbers = 1.0
+    rho: Numbers = 1.0
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         names = "p", "phi", "I", "d", "rho"
         for name in names:
             value = real_array(name, getattr(self, name))
@@ -56,33 +59,33 @@ class BaseState:
             raise ValueError(f"the shapes of p, phi, I, d and rho must broadcast, got {shapes}") from None
 
     @property
-    def shape(self):
+    def shape(self) -> tuple[int, ...]:
         """The broadcast shape: () for one state."""
         return np.broadcast_shapes(*(np.shape(v) for v in (self.p, self.phi, self.I, self.d, self.rho)))
 
     @property
-    def D(self):
+    def D(self) -> Numbers:
         """||D|| = I sqrt(p/rho)/(2 d), eq. (dfn-I); the norm is sqrt(D_ij D_ij/2), eq. (dfn-norm)."""
         return self.I * np.sqrt(self.p / self.rho) / (2 * self.d)
 
-    def tau(self, law):
+    def tau(self, law: Law) -> Numbers:
         """||tau|| = Y(p, phi, I)."""
         a_law(law)
         return law.Y(self.p, self.phi, self.I)
 
-    def div_u(self, law):
+    def div_u(self, law: Law) -> Numbers:
         """div u = 2 f(p, phi, I) ||D||: positive where the material expands."""
         a_law(law)
         return 2 * law.f(self.p, self.phi, self.I) * self.D
 
 
-def a_law(law):
+def a_law(law: object) -> None:
     """Raise TypeError unless the law has the eight functions of (p, phi, I)."""
     if isinstance(law, type) or not all(callable(getattr(law, name, None)) for name in _LAW):
         raise TypeError(f"law must have the functions {', '.join(_LAW)} of (p, phi, I), as CIDR has, got {shown(law)}")
 
 
-def admit(law, state):
+def admit(law: Law, state: BaseState) -> Numbers:
     """Return Y at the state, or say in one sentence why the law does not admit it.
 
     The Theorem of the paper uses, without saying so, that the yield stress is positive: 0 < p < alpha(I) C(phi) in

@@ -1,5 +1,8 @@
 """The backward heat equation, eq. (backward-heat): the classic ill-posed problem, solved mode by mode."""
 
+from __future__ import annotations
+
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import ClassVar
 
@@ -8,6 +11,7 @@ from scipy.special import beta
 
 from primer.arithmetic import constant, points, sin
 from primer.checks import affordable, broadcast, function, integer, real, real_array, shown
+from primer.types import ArrayLike, Derivative, Multiplier, Numbers
 
 
 def tendency(u_xx):
@@ -40,33 +44,35 @@ class BackwardHeat:
     amplitude: float = 1.0
     fields: ClassVar[tuple[str, ...]] = ("u",)
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         object.__setattr__(self, "xi", integer("xi", self.xi, least=1))
         if self.xi > 2**53:
             raise ValueError(f"xi must be an integer <= 2^53, got {shown(self.xi)}")
         object.__setattr__(self, "amplitude", real("amplitude", self.amplitude))
 
-    def initial(self, x):
+    def initial(self, x: ArrayLike) -> tuple[np.ndarray]:
         """(u,) at t = 0; x of any shape."""
         return (self.amplitude * sin(self.xi * points(x)),)
 
-    def steady(self, x):
+    def steady(self, x: ArrayLike) -> tuple[np.ndarray]:
         """(0,): the trivial solution that the paper perturbs."""
         return (constant(x, 0),)
 
-    def exact(self, x, t):
+    def exact(self, x: ArrayLike, t: ArrayLike) -> tuple[Numbers]:
         """(u,) at time t: the mode of the initial data, grown by e^{xi^2 t}."""
         return (self.amplitude * mode(self.xi, x, t),)
 
-    def forcing(self, x):
+    def forcing(self, x: ArrayLike) -> None:
         """Nothing: the equation does not depend on x."""
 
-    def rhs(self, x, state, derivative, forcing=None):
+    def rhs(
+        self, x: ArrayLike, state: Sequence[np.ndarray], derivative: Derivative, forcing: None = None
+    ) -> tuple[np.ndarray]:
         """(u_t,) of eq. (backward-heat), where ``derivative(f, m)`` gives the m-th x-derivative of a field on x."""
         (u,) = state
         return (tendency(derivative(u, 2)),)
 
-    def symbol(self, xi, multiplier=None):
+    def symbol(self, xi: ArrayLike, multiplier: Multiplier | None = None) -> np.ndarray:
         """The 1 x 1 symbol [[xi^2]]: e^{i xi x + lam t} grows at lam = xi^2, without bound in xi.
 
         ``multiplier(xi, m)`` is what the m-th derivative does to e^{i xi x}; left out, it is that of the continuum.
@@ -82,7 +88,7 @@ class BackwardHeat:
         return np.asarray(tendency(d2), dtype=complex)[..., None, None]
 
 
-def mode(xi, x, t):
+def mode(xi: ArrayLike, x: ArrayLike, t: ArrayLike) -> Numbers:
     """sin(xi x) e^{xi^2 t}, eq. (backward-heat-growing-sln), of the broadcast shape of its arguments.
 
     Infinite where it is beyond the largest number, and 0 where sin(xi x) is, however large t.
@@ -93,7 +99,7 @@ def mode(xi, x, t):
         return np.where(wave == 0, 0.0, wave * np.exp(xi**2 * t))[()]
 
 
-def scaled_amplitude(xi, t, p):
+def scaled_amplitude(xi: ArrayLike, t: ArrayLike, p: float) -> Numbers:
     """sup over x of |xi|^-p |sin(xi x)| e^{xi^2 t}, eq. (backward-heat-blow-up).
 
     At t = 0 it tends to zero as xi -> infinity (in C^k if p > k); at any t > 0 to infinity: Hadamard's third condition
@@ -107,7 +113,7 @@ def scaled_amplitude(xi, t, p):
         return np.abs(xi) ** -p * np.exp(xi**2 * t)
 
 
-def abs_sin_coefficients(p, m_max):
+def abs_sin_coefficients(p: float, m_max: int) -> np.ndarray:
     """Fourier coefficients c_0, c_2, ..., c_{2 m_max} of |sin x|^p = sum c_n e^{inx}; those of odd n are zero.
 
     In closed form::
@@ -133,7 +139,7 @@ def abs_sin_coefficients(p, m_max):
     return np.cumprod(np.concatenate([[beta((p + 1) / 2, 0.5) / np.pi], ratios]))
 
 
-def abs_sin_log_norms(p, t, m_max):
+def abs_sin_log_norms(p: float, t: float, m_max: int) -> np.ndarray:
     """ln of sum_{|n| <= 2M} e^{2 n^2 t} |c_n|^2 for M = 0 ... m_max: the partial sums of eq. (L2norm-sln).
 
     A solution of the backward heat equation from |sin x|^p that lives to time t needs them to converge. They do for

@@ -1,6 +1,9 @@
 """The paper's toy system, eq. (toy-pde): well posed where u > 0, ill posed where u < 0."""
 
+from __future__ import annotations
+
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import ClassVar
 
@@ -8,6 +11,7 @@ import numpy as np
 
 from primer.arithmetic import constant, cos, sin
 from primer.checks import broadcast, function, real, real_array, shown
+from primer.types import ArrayLike, Derivative, Multiplier, Numbers
 
 
 def tendency(u, v, u_x, v_x, v_xx, sin_x, eps):
@@ -51,19 +55,19 @@ class Toy:
     eps: float = 0.01
     fields: ClassVar[tuple[str, ...]] = ("u", "v")
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         object.__setattr__(self, "a", real("a", self.a))
         object.__setattr__(self, "eps", real("eps", self.eps, least=0))
 
-    def initial(self, x):
+    def initial(self, x: ArrayLike) -> tuple[np.ndarray, np.ndarray]:
         """(u, v) at t = 0, eq. (toy-initial); x of any shape."""
         return constant(x, self.a), -sin(x) / 2
 
-    def steady(self, x):
+    def steady(self, x: ArrayLike) -> tuple[np.ndarray, np.ndarray]:
         """(u, v) as t -> infinity, eq. (toy-steady); a steady state for every eps, stable only where u > 0."""
         return self.a - cos(x), constant(x, 0)
 
-    def exact(self, x, t):
+    def exact(self, x: ArrayLike, t: ArrayLike) -> tuple[Numbers, Numbers]:
         """(u, v) at time t for eps = 0, eq. (toy-sln), of the broadcast shape of x and t.
 
         With w = sqrt(3)/2 the paper's sums of cosines are products::
@@ -83,11 +87,13 @@ class Toy:
         v = -decay * np.sin(x) * np.sin(w * t + math.pi / 6)
         return u, v
 
-    def forcing(self, x):
+    def forcing(self, x: ArrayLike) -> np.ndarray:
         """sin x: what the right-hand side needs of x alone, so that a time loop computes it once."""
         return sin(x)
 
-    def rhs(self, x, state, derivative, forcing=None):
+    def rhs(
+        self, x: ArrayLike, state: Sequence[np.ndarray], derivative: Derivative, forcing: np.ndarray | None = None
+    ) -> tuple[np.ndarray, np.ndarray]:
         """(u_t, v_t) of eq. (toy-pde).
 
         ``derivative(f, m)`` gives the m-th x-derivative of a field on x; ``forcing`` is ``self.forcing(x)``, where it
@@ -97,7 +103,9 @@ class Toy:
         sin_x = self.forcing(x) if forcing is None else forcing
         return tendency(u, v, derivative(u, 1), derivative(v, 1), derivative(v, 2), sin_x, self.eps)
 
-    def symbol(self, xi, u, v_xx=0.0, multiplier=None):
+    def symbol(
+        self, xi: ArrayLike, u: ArrayLike, v_xx: ArrayLike = 0.0, multiplier: Multiplier | None = None
+    ) -> np.ndarray:
         """The frozen-coefficient matrix of eq. (toy-mat): perturbations e^{i xi x + lam t} grow at its eigenvalues lam.
 
         Parameters

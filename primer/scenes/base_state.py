@@ -51,7 +51,7 @@ class BaseStateAnswer:
     verdict: str
 
 
-def base_state(a=1.5, eps=0.01, n=100):
+def base_state(a: float = 1.5, eps: float = 0.01, n: int = 100) -> BaseStateAnswer:
     """March the toy system from (toy-initial) on n points, and say what its symbol and its grid foretell.
 
     The step is the paper's 10^-3, or 0.9 of what keeps the scheme stable, if that is less: what blows up here is not

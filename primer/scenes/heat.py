@@ -44,7 +44,7 @@ class HeatAnswer:
     verdict: str
 
 
-def heat(n=24, courant=0.05, seed=1e-12):
+def heat(n: int = 24, courant: float = 0.05, seed: float = 1e-12) -> HeatAnswer:
     """March u_t = -u_xx from sin x plus ``seed`` times the sawtooth (-1)^j on n and on 2n points, dt = courant h^2.
 
     With a seed of 0, round-off is the only one.

@@ -48,7 +48,7 @@ class PDEAnswer:
     verdict: str
 
 
-def pde(pde=TOY, at="u=-0.5 v_xx=0.3 eps=0.01", order="full", n=64):
+def pde(pde: str = TOY, at: str = "u=-0.5 v_xx=0.3 eps=0.01", order: str = "full", n: int = 64) -> PDEAnswer:
     """Is a PDE linearly ill-posed, frozen at a base state, and does a grid of spacing 2 pi/n show it?
 
     Parameters

@@ -58,7 +58,7 @@ class RefinementAnswer:
     verdict: str
 
 
-def refinement(a=0.5, n=50, dt=1e-3):
+def refinement(a: float = 0.5, n: int = 50, dt: float = 1e-3) -> RefinementAnswer:
     """March the toy system from (toy-initial) on n, 2n and 4n points with the same step: did refining help?
 
     What blows up is marched again with a smaller step, for only the scheme can be cured that way. The answer takes time

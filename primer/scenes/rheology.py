@@ -91,7 +91,7 @@ class RheologyAnswer:
     verdict: str
 
 
-def rheology(law="mu(I)", I=0.1, ratio=0.3, angle=21.0):
+def rheology(law: str = "mu(I)", I: float = 0.1, ratio: float = 0.3, angle: float = 21.0) -> RheologyAnswer:
     """Freeze a granular law at a state and ask what becomes of its short waves (sections 2 to 4 of the paper).
 
     Parameters
@@ -138,7 +138,8 @@ def rheology_map(law, angle):
     kind = np.full(shape, np.nan)
     kind[inside] = np.where(lead.ill_posed, np.where(lead.exponent > 1.5, 3.0, 2.0), np.where(lead.limit > 0, 1.0, 0.0))
     ends = RATIO_MAP[[0, -1]]
-    top, edges = np.full(I_MAP.shape, np.inf), ()
+    top = np.full(I_MAP.shape, np.inf)
+    edges: tuple = ()
     if law == "mu(I)":
         edges = tuple((np.full(2, value), ends) for value in _neutral(angle))
     if law == "CSSM":

@@ -1,6 +1,9 @@
 """Many toy systems marched side by side: the same runs, to the bit, in less time."""
 
+from __future__ import annotations
+
 import os
+from collections.abc import Iterable
 from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
@@ -11,20 +14,22 @@ from primer.problems.toy import Toy
 from primer.schemes.block import KERNEL, Block
 from primer.schemes.ftcs import ftcs
 from primer.schemes.record import a_problem, plan
+from primer.schemes.run import Run, Seed
+from primer.types import DTypeLike, Problem
 
 
 def ftcs_ensemble(
-    problems,
-    n=100,
-    dt=1e-3,
-    t_end=100.0,
-    record_every=None,
-    snapshots=(),
-    seed=None,
-    blow_up_at=1e3,
-    dtype=np.float64,
-    digits=None,
-):
+    problems: Iterable[Problem],
+    n: int = 100,
+    dt: float = 1e-3,
+    t_end: float = 100.0,
+    record_every: int | None = None,
+    snapshots: Iterable[float] = (),
+    seed: Seed | tuple | None = None,
+    blow_up_at: float = 1e3,
+    dtype: DTypeLike = np.float64,
+    digits: int | None = None,
+) -> tuple[Run, ...]:
     """March many problems on the same grid with the same step: a tuple of what :func:`primer.ftcs` gives for each.
 
     Toy systems in float32 or float64 are marched in blocks, the member the innermost index, so that one vector

@@ -8,11 +8,15 @@ eq. (toy-mat) takes its multipliers to be those of the continuum):
 1.000000000000
 """
 
+from __future__ import annotations
+
 import math
 from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
+
+from primer.types import ArrayLike, Numbers
 
 MATRIX_UP_TO = 128  # points up to which a product with a matrix costs less than the fast Fourier transforms it replaces
 
@@ -28,7 +32,7 @@ class Fourier:
     derivative: int
     order = math.inf
 
-    def __call__(self, f, h):
+    def __call__(self, f: np.ndarray, h: float) -> np.ndarray:
         """Apply it to samples f of shape (..., n) of a periodic function on a grid of spacing h = 2 pi/n."""
         n = f.shape[-1]
         f = f - f[..., :1]  # exact for a constant, and so less rounding for a large mean
@@ -39,12 +43,12 @@ class Fourier:
             factors[-1] = 0
         return np.fft.irfft(factors * np.fft.rfft(f), n)
 
-    def multiplier(self, xi, h):
+    def multiplier(self, xi: ArrayLike, h: float) -> Numbers:
         """What it does to e^{i xi x}: (i xi)^m, for |xi| h < pi; complex, of the shape of xi."""
         return (1j * np.asarray(xi)) ** self.derivative
 
     @lru_cache(maxsize=64)  # noqa: B019  (there are two of these objects, and they live for ever)
-    def matrix(self, n):
+    def matrix(self, n: int) -> np.ndarray:
         """The same derivative as a matrix: ``f @ matrix(n)``, of shape (n, n) and read-only, in closed form.
 
         See e.g. L. N. Trefethen, "Spectral Methods in MATLAB", SIAM 2000, chapter 3 (even n) and its exercises (odd n).
@@ -69,7 +73,7 @@ class Fourier:
 FOURIER = {1: Fourier(1), 2: Fourier(2)}
 
 
-def interpolate(f, x):
+def interpolate(f: np.ndarray, x: ArrayLike) -> np.ndarray:
     """The trigonometric interpolant at x of samples f, of shape (..., n), on the grid -pi + 2 pi j/n.
 
     Returns

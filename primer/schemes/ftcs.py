@@ -1,6 +1,9 @@
 """The paper's scheme: central differences in space, forward Euler in time."""
 
+from __future__ import annotations
+
 import sys
+from collections.abc import Iterable
 
 import numpy as np
 
@@ -9,22 +12,24 @@ from primer.problems.toy import Toy
 from primer.schemes.block import KERNEL, Block
 from primer.schemes.grid import CENTRAL
 from primer.schemes.record import plan
+from primer.schemes.run import Run, Seed
+from primer.types import DTypeLike, Problem
 
 _SHORT = 2**19  # grid points below which starting the compiler costs more than it saves
 
 
 def ftcs(
-    problem,
-    n=100,
-    dt=1e-3,
-    t_end=100.0,
-    record_every=None,
-    snapshots=(),
-    seed=None,
-    blow_up_at=1e3,
-    dtype=np.float64,
-    digits=None,
-):
+    problem: Problem,
+    n: int = 100,
+    dt: float = 1e-3,
+    t_end: float = 100.0,
+    record_every: int | None = None,
+    snapshots: Iterable[float] = (),
+    seed: Seed | tuple | None = None,
+    blow_up_at: float = 1e3,
+    dtype: DTypeLike = np.float64,
+    digits: int | None = None,
+) -> Run:
     """March ``problem`` by the paper's central-space forward-time scheme (section A2.2.2) on n periodic points.
 
     One step is ``f + dt * rhs(f)`` for every field f, with the derivatives of ``CENTRAL``::

@@ -10,12 +10,17 @@ order (Fornberg, Math. Comp. 51 (1988) 699), as tables derivative -> stencil:
 6 0.999975
 """
 
+from __future__ import annotations
+
 import math
+from collections.abc import Iterable
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
 from primer.checks import integer, real_array, shown
+from primer.types import ArrayLike, Numbers
 
 MAX_POINTS = 10**7  # a finer grid is refused: a single field on it would take 80 MB
 
@@ -35,21 +40,21 @@ class Stencil:
     weights: tuple[int, ...]
     denominator: int
 
-    def scale(self, h):
+    def scale(self, h: float) -> float:
         """1/(denominator h^m), the factor by which a step multiplies the weighted sum."""
         return 1 / (self.denominator * math.prod([h] * self.derivative))
 
-    def __call__(self, f, h):
+    def __call__(self, f: np.ndarray, h: float) -> np.ndarray:
         """Apply it to samples f of shape (..., n) of a periodic function on a grid of spacing h."""
         reach, n = max(map(abs, self.offsets)), f.shape[-1]
         ghosts = np.concatenate((f[..., n - reach :], f, f[..., :reach]), axis=-1)
-        total = 0
+        total: Any = 0
         for offset, weight in zip(self.offsets, self.weights, strict=True):
             term = ghosts[..., reach + offset : reach + offset + n]
             total = total + (term if weight == 1 else weight * term)
         return total * self.scale(h)
 
-    def multiplier(self, xi, h):
+    def multiplier(self, xi: ArrayLike, h: float) -> Numbers:
         """What it does to e^{i xi x}: complex, of the shape of xi."""
         total = sum(w * np.exp(1j * np.asarray(xi) * o * h) for o, w in zip(self.offsets, self.weights, strict=True))
         return total * self.scale(h)
@@ -83,40 +88,37 @@ class Grid:
 
     n: int
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         object.__setattr__(self, "n", integer("n", self.n, least=4))
         if self.n > MAX_POINTS:
             raise ValueError(f"n must be an integer <= {MAX_POINTS:.0e} to fit into memory, got {shown(self.n)}")
 
     @property
-    def h(self):
+    def h(self) -> float:
         """The spacing 2 pi/n."""
         return 2 * math.pi / self.n
 
     @property
-    def x(self):
+    def x(self) -> np.ndarray:
         """The points, of shape (n,)."""
         return -math.pi + self.h * np.arange(self.n)
 
-    def derivative(self, f, m):
+    def derivative(self, f: ArrayLike, m: int) -> np.ndarray:
         """The m-th derivative of f, of shape (..., n), by central differences of second order, m = 1 or 2."""
-        m, f = integer("m", m, least=1, most=2), f if _holds_complex(f) else real_array("f", f)
-        if f.shape[-1:] != (self.n,):
-            raise ValueError(f"f must have shape (..., {self.n}) on this grid, got {f.shape}")
-        return CENTRAL[m](f, self.h)
+        m = integer("m", m, least=1, most=2)
+        values = f if isinstance(f, np.ndarray) and f.dtype.kind == "c" else real_array("f", f)
+        if values.shape[-1:] != (self.n,):
+            raise ValueError(f"f must have shape (..., {self.n}) on this grid, got {values.shape}")
+        return CENTRAL[m](values, self.h)
 
-    def multiplier(self, xi, m):
+    def multiplier(self, xi: ArrayLike, m: int) -> Numbers:
         """What that derivative does to e^{i xi x}: i sin(xi h)/h for m = 1, -(4/h^2) sin^2(xi h/2) for m = 2."""
         return CENTRAL[integer("m", m, least=1, most=2)].multiplier(real_array("xi", xi), self.h)
 
 
-def grids(name, ns):
+def grids(name: str, ns: Iterable[int]) -> tuple[int, ...]:
     """A tuple of grid sizes, each checked as ``Grid`` does, under the name of the argument that holds them."""
     for n in ns:
         if integer(name, n, least=4) > MAX_POINTS:
             raise ValueError(f"{name} must be integers <= {MAX_POINTS:.0e} to fit into memory, got {shown(n)}")
     return tuple(int(n) for n in ns)
-
-
-def _holds_complex(f):
-    return isinstance(f, np.ndarray) and f.dtype.kind == "c"

@@ -1,8 +1,12 @@
 """The method of lines: any stencil in space, any Runge-Kutta step in time, on the same right-hand side as ``ftcs``."""
 
+from __future__ import annotations
+
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import lru_cache
+from typing import Any, TypeAlias
 
 import numpy as np
 
@@ -12,10 +16,12 @@ from primer.problems.toy import Toy
 from primer.schemes.fourier import MATRIX_UP_TO, Fourier
 from primer.schemes.grid import CENTRAL, Grid, Stencil
 from primer.schemes.runge_kutta import RK4, RungeKutta
+from primer.types import Problem
 
 MAX_STEPS = 10**7  # a march of more steps than this (some minutes) is refused before it starts
 MAX_WORK = 10**12  # and one of more points times steps, which takes hours
-_BLOWN_UP = 1e100  # growth over the initial data at which a march is given up
+Space: TypeAlias = Mapping[int, Stencil] | Mapping[int, Fourier]  # derivative -> stencil
+_BLOWN_UP = 1e100  # growth over the initial data at which a march is given up, at whatever stage of a step
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,26 +43,28 @@ class Lines:
     5.0 False [(16,), (16,)]
     """
 
-    problem: object
+    problem: Any
     n: int
     dt: float
     t: float
-    space: dict = field(repr=False)
+    space: Space = field(repr=False)
     time: RungeKutta
     x: np.ndarray = field(repr=False)
     final: tuple[np.ndarray, ...] = field(repr=False)
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         for array in (self.x, *self.final):
             array.flags.writeable = False
 
     @property
-    def blew_up(self):
+    def blew_up(self) -> bool:
         """Whether the march was given up, at 1e100 times the size of its initial data."""
         return not np.isfinite(self.final).all()
 
 
-def march_lines(problem, n, dt, t_end, space=CENTRAL, time=RK4):
+def march_lines(
+    problem: Problem, n: int, dt: float, t_end: float, space: Space = CENTRAL, time: RungeKutta = RK4
+) -> Lines:
     """March ``problem`` to t_end on n periodic points, with the derivatives ``space`` and the step ``time``.
 
     Parameters
@@ -108,7 +116,7 @@ def _check(space, time):
         raise TypeError(f"space must be a table of derivatives such as CENTRAL or FOURIER, got {shown(space)}")
 
 
-def stable_step(toy, n, space, time):
+def stable_step(toy: Toy, n: int, space: Space, time: RungeKutta) -> float:
     """Nine tenths of the step up to which ``time`` is stable for the toy system on n points.
 
     Frozen at a point, the eigenvalues lam of eq. (toy-mat) satisfy lam^2 + (1 + eps u d2) lam + d1^2 = 0 with the
@@ -154,6 +162,8 @@ def _interpreted(problem, x, y, forcing, space, time, dt, counts, limit, states,
     h, deep = 2 * math.pi / x.size, 0.0
 
     def slope(y):
+        if not np.abs(y).max() <= limit:
+            return np.full_like(y, np.nan)
         return np.array(problem.rhs(x, y, lambda f, m: space[m](f, h), forcing))
 
     # One step may carry a blow-up from below the stated size to beyond the largest number.

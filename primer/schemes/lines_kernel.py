@@ -12,6 +12,16 @@ from primer.compiled import jit
 from primer.problems.toy import tendency
 
 _tendency = numba.njit(tendency, inline="always")
+
+
+@numba.njit
+def _within(limit, u, v):
+    beyond = 0  # a count, since vector instructions can add up comparisons
+    for i in range(u.size):
+        beyond += (not abs(u[i]) <= limit) + (not abs(v[i]) <= limit)
+    return beyond == 0
+
+
 # Numba's disk cache watches this file only. A changed equation changes this number, hence the cache's key.
 _EQUATION = zlib.crc32(tendency.__code__.co_code + repr(tendency.__code__.co_consts).encode())
 
@@ -19,7 +29,8 @@ _EQUATION = zlib.crc32(tendency.__code__.co_code + repr(tendency.__code__.co_con
 def _compile(equation):
     @jit
     def march(y, sin_x, eps, d1, d2, A, b, dt, counts, limit, states, depth):
-        """Take counts[m] steps dt[m] for m = 0, 1, ..., as long as |u|, |v| <= limit at the end of each step.
+        """Take counts[m] steps dt[m] for m = 0, 1, ..., as long as |u|, |v| <= limit at each stage of each step,
+        so that no product is beyond the largest number.
 
         y       (2, n) the state (u, v), overwritten
         d1, d2  the derivatives: (n, n) matrices, f'_i = sum_o d[o, i] f_o, or (2 reach + 1, 1) stencils on samples g
@@ -54,6 +65,8 @@ def _compile(equation):
                             for i in range(n):
                                 u[i] += c * k[j, 0, i]
                                 v[i] += c * k[j, 1, i]
+                    if not _within(limit, u, v):
+                        return
                     if dense:
                         for o in range(n):
                             u_o, v_o = u[o] - u[0], v[o] - v[0]  # rounding leaves the rows of d1, d2 a sum of 1e-14
@@ -84,10 +97,7 @@ def _compile(equation):
                         was = y[f, i]
                         y[f, i] = was + change[f, i]
                         change[f, i] -= y[f, i] - was
-                largest = 0.0
-                for i in range(n):
-                    largest = max(largest, abs(y[0, i]), abs(y[1, i]))
-                if not largest <= limit:
+                if not _within(limit, y[0], y[1]):
                     return
             states[m], depth[m] = y, deep
 

@@ -69,7 +69,7 @@ def a_problem(name, problem):
         raise TypeError(f"{name} must be a Toy, a BackwardHeat or an object with their methods, got {shown(problem)}")
 
 
-def plan(n, dt, t_end, record_every, snapshots, seed, blow_up_at, dtype, digits):
+def plan(n, dt, t_end, record_every, snapshots, seed, blow_up_at, dtype, digits) -> Plan:
     """Check the arguments of :func:`primer.ftcs` and count the steps."""
     grid, numbers = Grid(n), arithmetic(dtype, digits)
     dt, t_end = real("dt", dt, above=0), real("t_end", t_end, least=0)

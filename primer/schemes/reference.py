@@ -1,5 +1,7 @@
 """The accurate reference for the toy system: an answer with an error bar, or a refusal."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass, field
 from functools import lru_cache
 
@@ -11,6 +13,7 @@ from primer.schemes.fourier import FOURIER, interpolate, transfer
 from primer.schemes.grid import Grid
 from primer.schemes.lines import MAX_STEPS, stable_step, trace
 from primer.schemes.runge_kutta import RK8
+from primer.types import ArrayLike
 
 # Grid points tried in turn, each judged by the next. Multiples of 8 fill a processor's vector registers.
 _POINTS = (8, 16, 24, 32, 48, 64, 96, 128)
@@ -36,11 +39,11 @@ class PastHorizon(ArithmeticError):
     True
     """
 
-    def __init__(self, message, horizon):
+    def __init__(self, message: str, horizon: float) -> None:
         super().__init__(message, horizon)
         self.horizon = horizon
 
-    def __str__(self):
+    def __str__(self) -> str:
         return self.args[0]
 
 
@@ -76,17 +79,17 @@ class Reference:
     error: np.ndarray = field(repr=False)
     horizon: float
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         for array in (self.x, self.t, self.u, self.v, self.error):
             array.flags.writeable = False
 
-    def at(self, x):
+    def at(self, x: ArrayLike) -> tuple[np.ndarray, np.ndarray]:
         """(u, v) at any x, by trigonometric interpolation, each of shape (m,) + the shape of x."""
         x = real_array("x", x)
         return interpolate(self.u, x), interpolate(self.v, x)
 
 
-def reference(toy, t, tol=1e-10):
+def reference(toy: Toy, t: ArrayLike, tol: float = 1e-10) -> Reference:
     """The solution of the toy system at the times t with an error of at most about ``tol``, or a refusal.
 
     Fourier collocation in space and the fixed step ``RK8`` in time. The march is made twice, the second time with at
@@ -146,13 +149,13 @@ def reference(toy, t, tol=1e-10):
     return Reference(toy, tol, Grid(u.shape[-1]).x, t, u, v, error[place], float(horizon))
 
 
-def _times(t):
-    t = np.atleast_1d(real_array("t", t)).astype(float)  # a copy
-    if t.size > _TIMES:
-        raise ValueError(f"t must be at most {_TIMES} times, got {t.size}")
-    if t.ndim != 1 or t.size == 0 or t.min() < 0:
-        raise ValueError(f"t must be a time >= 0 or a non-empty sequence of them, got {shown(t)}")
-    return t
+def _times(t: ArrayLike) -> np.ndarray:
+    times = np.atleast_1d(real_array("t", t)).astype(float)  # a copy
+    if times.size > _TIMES:
+        raise ValueError(f"t must be at most {_TIMES} times, got {times.size}")
+    if times.ndim != 1 or times.size == 0 or times.min() < 0:
+        raise ValueError(f"t must be a time >= 0 or a non-empty sequence of them, got {shown(times)}")
+    return times
 
 
 def _past(toy, t, tol, horizon):

@@ -1,14 +1,18 @@
 """What a marched problem gives back: a frozen ``Run``, why it stopped, and the seed that was put in."""
 
+from __future__ import annotations
+
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from enum import StrEnum
+from typing import Any
 
 import numpy as np
 
 from primer.arithmetic import cos, points
 from primer.checks import integer, real, shown
+from primer.types import ArrayLike
 
 
 class Stop(StrEnum):
@@ -48,14 +52,14 @@ class Seed:
     field: str = "u"
     phase: float = -math.pi / 4
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         object.__setattr__(self, "mode", integer("seed mode", self.mode, least=0))
         object.__setattr__(self, "amplitude", real("seed amplitude", self.amplitude))
         object.__setattr__(self, "phase", real("seed phase", self.phase))
         if not isinstance(self.field, str):
             raise TypeError(f"seed field must be the name of a field, such as 'u', got {shown(self.field)}")
 
-    def __call__(self, x):
+    def __call__(self, x: ArrayLike) -> np.ndarray:
         """The perturbation at x, of the shape of x."""
         return self.amplitude * cos(self.mode * points(x) + self.phase)
 
@@ -84,7 +88,7 @@ class Run:
     reached_end (30,) 2 None
     """
 
-    problem: object
+    problem: Any
     n: int
     dt: float
     x: np.ndarray = field(repr=False)
@@ -99,6 +103,6 @@ class Run:
     seed: Seed | None = None
     blow_up_at: float = math.inf
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         for array in (self.x, self.t, self.dist, self.u_min, *self.final, *sum(self.snapshots.values(), ())):
             array.flags.writeable = False

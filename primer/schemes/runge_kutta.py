@@ -11,6 +11,7 @@ RK4 4 1e-05
 RK8 8 4e-13
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import cached_property
 
@@ -41,7 +42,7 @@ class RungeKutta:
     reach: float
 
     @cached_property
-    def table(self):
+    def table(self) -> tuple[np.ndarray, np.ndarray]:
         """(A, b) as read-only arrays of shape (s, s) and (s,), for s stages."""
         A, b = np.zeros((len(self.b), len(self.b))), np.array(self.b)
         for i, row in enumerate(self.rows, start=1):
@@ -49,9 +50,9 @@ class RungeKutta:
         A.flags.writeable = b.flags.writeable = False
         return A, b
 
-    def step(self, f, y, dt):
+    def step(self, f: Callable[[np.ndarray], np.ndarray], y: np.ndarray, dt: float) -> np.ndarray:
         """The state one step dt after the array y, where ``f(y)`` gives y'."""
-        slopes = []
+        slopes: list[np.ndarray] = []
         for row in ((), *self.rows):
             slopes.append(f(_combine(y, dt, row, slopes)))
         return _combine(y, dt, self.b, slopes)

@@ -2,6 +2,7 @@
 
 import math
 import time
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 
@@ -40,20 +41,26 @@ class WorkPrecision:
     points: tuple[Point, ...]
 
     @property
-    def methods(self):
+    def methods(self) -> tuple[str, ...]:
         """The names of the methods, in the order in which they ran."""
         return tuple(dict.fromkeys(point.method for point in self.points))
 
-    def of(self, method):
+    def of(self, method: str) -> tuple[Point, ...]:
         """The points of one method."""
         return tuple(point for point in self.points if point.method == method)
 
-    def quickest(self, method, error):
+    def quickest(self, method: str, error: float) -> Point | None:
         """The quickest point of a method with at most this error, or None."""
         return min((p for p in self.of(method) if p.error <= error), key=lambda p: p.seconds, default=None)
 
 
-def work_precision(toy=None, t_end=5.0, methods=None, patience=1.0, repeats=5):
+def work_precision(
+    toy: Toy | None = None,
+    t_end: float = 5.0,
+    methods: Iterable[Method] | None = None,
+    patience: float = 1.0,
+    repeats: int = 5,
+) -> WorkPrecision:
     """Run every method through its knobs; compare the errors at t_end and the wall times.
 
     Parameters
@@ -94,7 +101,7 @@ def work_precision(toy=None, t_end=5.0, methods=None, patience=1.0, repeats=5):
     return WorkPrecision(toy, t_end, pareto(points))
 
 
-def pareto(points):
+def pareto(points: Sequence[Point]) -> tuple[Point, ...]:
     """The same points, marked ``on_front`` where no other is both as quick and as accurate."""
 
     def beaten(p):
@@ -106,7 +113,13 @@ def pareto(points):
     return tuple(replace(p, on_front=math.isfinite(p.error) and not beaten(p)) for p in points)
 
 
-def cost_against_n(toy=None, t_end=5.0, ns=(50, 100, 200, 400, 800, 1600, 3200), methods=None, seconds=0.05):
+def cost_against_n(
+    toy: Toy | None = None,
+    t_end: float = 5.0,
+    ns: Iterable[int] = (50, 100, 200, 400, 800, 1600, 3200),
+    methods: Iterable[Method] | None = None,
+    seconds: float = 0.05,
+) -> tuple[Point, ...]:
     """Wall time to t_end on n points, for the methods whose knob is n, with steps both stable and accurate enough.
 
     A stretch of the march that takes at least half of ``seconds`` is timed and scaled to t_end.
@@ -143,7 +156,7 @@ def _methods(methods):
 
 def clock(run, patience, repeats):
     """(median seconds, outcome) of ``repeats`` calls of run(), or fewer, after one that does not count."""
-    times = []
+    times: list[float] = []
     while len(times) <= repeats or sum(times[1:]) < _AT_LEAST:
         start = time.perf_counter()
         outcome = run()

@@ -1,5 +1,7 @@
 """Tell, without running it, what a run of the toy system will do, and whether to blame the scheme or the equations."""
 
+from __future__ import annotations
+
 import math
 from dataclasses import dataclass
 from enum import StrEnum
@@ -15,6 +17,7 @@ from primer.schemes.run import Seed
 from primer.study.forecast import forecast
 from primer.study.spectrum import growth
 from primer.study.stability import stable_dt
+from primer.types import DTypeLike
 
 # A blow-up measured within [earliest, latest]: the width, a factor 1.45, is twice the spread of measured times over
 # random scenes (tests/test_diagnose.py), and reaches further up since a seed may lie badly for the growing mode.
@@ -65,7 +68,15 @@ class Diagnosis:
     t_blow_up: float
 
 
-def diagnose(toy, n=100, dt=1e-3, t_end=100.0, seed=None, dtype=np.float64, digits=None):
+def diagnose(
+    toy: Toy,
+    n: int = 100,
+    dt: float = 1e-3,
+    t_end: float = 100.0,
+    seed: Seed | tuple | float | None = None,
+    dtype: DTypeLike = np.float64,
+    digits: int | None = None,
+) -> Diagnosis:
     """Foresee what ``primer.ftcs(toy, n, dt, t_end, seed=seed, dtype=dtype, digits=digits)`` will do.
 
     Nothing is run: the growth of small perturbations, from the stated seed and from round-off in the stated arithmetic,

@@ -1,9 +1,13 @@
 """Which base states blow up on which grids: measured, cell by cell, in a table that a sweep can resume."""
 
+from __future__ import annotations
+
 import math
 import warnings
-from concurrent.futures import BrokenExecutor, Executor, as_completed
+from collections.abc import Iterable, Sequence
+from concurrent.futures import BrokenExecutor, Executor, Future, as_completed
 from dataclasses import dataclass
+from os import PathLike
 
 import numpy as np
 
@@ -15,6 +19,7 @@ from primer.schemes.record import plan
 from primer.schemes.run import Seed, Stop
 from primer.study.stability import OVERSHOOT, stable_dt
 from primer.study.table import Table
+from primer.types import ArrayLike
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,12 +47,12 @@ class BlowUpMap:
     t_seeded: np.ndarray
 
     @property
-    def done(self):
+    def done(self) -> np.ndarray:
         """(N,) whether all base states have been marched on the grid."""
         return ~np.isnan(self.t_blow_up).any(axis=0)
 
     @property
-    def from_round_off(self):
+    def from_round_off(self) -> np.ndarray:
         """(A, N) True where the plain run blows up and only round-off makes it.
 
         The seed is a little above round-off: growth from round-off is overtaken by it, and the blow-up comes sooner. A
@@ -57,8 +62,16 @@ class BlowUpMap:
 
 
 def blow_up_map(
-    a_values, n_values, eps=0.01, t_end=100.0, dt=1e-3, seed=1e-12, table=None, executor=None, progress=True
-):
+    a_values: ArrayLike,
+    n_values: Iterable[int],
+    eps: float = 0.01,
+    t_end: float = 100.0,
+    dt: float = 1e-3,
+    seed: float = 1e-12,
+    table: str | PathLike | None = None,
+    executor: Executor | None = None,
+    progress: bool = True,
+) -> BlowUpMap:
     """March the toy system for every base state on every grid, and what blows up once more from a stated seed.
 
     Parameters
@@ -112,7 +125,7 @@ def blow_up_map(
     return BlowUpMap(np.array(a), np.array(n), eps, t_end, np.array(steps), seed, cells[..., 0], cells[..., 1])
 
 
-def map_step(a_values, n, eps, most=1e-3):
+def map_step(a_values: Sequence[float], n: int, eps: float, most: float = 1e-3) -> float:
     """A step small enough for no cell of a column to be the scheme's doing: ``most``, or 0.9 of the limit if less.
 
     Where u is large that limit is the stiffest mode's, and where u < 0 at least h^2/4; see ``stability``.
@@ -140,7 +153,8 @@ def _march(columns, executor, store, progress):
             store.add(rows)
             bar.update(len(rows))
 
-        waiting, lost = {}, {}
+        waiting: dict[Future, tuple] = {}
+        lost: dict[int, BaseException] = {}
         try:
             if executor is None:  # each column takes all cores
                 for column in columns:
@@ -149,8 +163,8 @@ def _march(columns, executor, store, progress):
                 for column in columns:
                     try:
                         waiting[executor.submit(_column, *column)] = column
-                    except BrokenExecutor as error:  # a worker has died already
-                        lost[column[1]] = error
+                    except BrokenExecutor as broken:  # a worker has died already
+                        lost[column[1]] = broken
                 for done in as_completed(waiting):
                     _, n, *_ = waiting[done]
                     if (error := done.exception()) is None or isinstance(error, KeyboardInterrupt):

@@ -4,6 +4,7 @@ import json
 import math
 from dataclasses import asdict
 from pathlib import Path
+from typing import Any
 
 from primer.problems.toy import Toy
 from primer.study.cost import Point, WorkPrecision, pareto
@@ -31,15 +32,16 @@ def read(path):
     try:
         stored = json.loads(text)
         points, cost = (
-            tuple(
-                Point(**{key: math.nan if value is None else value for key, value in row.items()})
-                for row in stored[name]
-            )
+            tuple(Point(**{key: _read(value) for key, value in row.items()}) for row in stored[name])
             for name in ("points", "cost")
         )
         return WorkPrecision(Toy(stored["a"], stored["eps"]), stored["t_end"], pareto(points)), cost
     except (ValueError, TypeError, KeyError, AttributeError):
         raise ValueError(f"path must be a file of measurements as write() keeps them, got {str(path)!r}") from None
+
+
+def _read(value: Any) -> Any:
+    return math.nan if value is None else value
 
 
 def _kept(value):

@@ -1,7 +1,11 @@
 """Grid refinement: the same problem on finer and finer grids."""
 
+from __future__ import annotations
+
 import math
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -11,6 +15,7 @@ from primer.schemes.discrete import amplification
 from primer.schemes.ftcs import ftcs
 from primer.schemes.grid import Grid, grids
 from primer.schemes.run import Run, Seed, Stop
+from primer.types import Problem
 
 
 @dataclass(frozen=True, eq=False)
@@ -20,27 +25,33 @@ class Refinement:
     runs: tuple[Run, ...]
 
     @property
-    def n(self):
+    def n(self) -> np.ndarray:
         """(k,) grid points."""
         return np.array([run.n for run in self.runs])
 
     @property
-    def h(self):
+    def h(self) -> np.ndarray:
         """(k,) spacings 2 pi/n."""
         return 2 * math.pi / self.n
 
     @property
-    def dist_end(self):
+    def dist_end(self) -> np.ndarray:
         """(k,) Dist of eq. (toy-err) where each run stopped."""
         return np.array([run.dist[-1] for run in self.runs], dtype=float)
 
     @property
-    def t_blow_up(self):
+    def t_blow_up(self) -> np.ndarray:
         """(k,) blow-up times; infinite where a run did not blow up."""
         return np.array([run.t_stop if run.stop is Stop.BLEW_UP else math.inf for run in self.runs])
 
 
-def refine(problem, ns, dt=1e-3, seed=None, **options):
+def refine(
+    problem: Problem,
+    ns: Iterable[int],
+    dt: float | Callable[[int], float] = 1e-3,
+    seed: Seed | tuple | Callable[[int], Seed | None] | None = None,
+    **options: Any,
+) -> Refinement:
     """March ``problem`` on each of the grids ``ns`` by :func:`primer.ftcs`.
 
     ``dt`` and ``seed`` may also be functions of n; the other options are those of ``ftcs``.
@@ -74,7 +85,14 @@ class HeatOnset:
     predicted: np.ndarray  # (k,) the same for the stated sawtooth, in closed form; infinite without one
 
 
-def heat_onset(ns, courant=0.02, tolerance=1e-2, sawtooth=0.0, t_end=None, snapshots=()):
+def heat_onset(
+    ns: Iterable[int],
+    courant: float = 0.02,
+    tolerance: float = 1e-2,
+    sawtooth: float = 0.0,
+    t_end: float | None = None,
+    snapshots: Iterable[float] = (),
+) -> HeatOnset:
     """March u_t = -u_xx from sin x on grids ``ns`` with dt = courant h^2 and see when the grid takes over.
 
     In exact arithmetic each step multiplies sin x by 1 + dt (4/h^2) sin^2(h/2). Whatever lives at the grid's own
@@ -120,6 +138,6 @@ def heat_onset(ns, courant=0.02, tolerance=1e-2, sawtooth=0.0, t_end=None, snaps
         runs.append(run)
         departures.append(departure)
         times.append(run.t[late[0]] if late.size else math.inf)
-    dt = courant * Refinement(tuple(runs)).h ** 2
-    predicted = dt * math.log(tolerance / sawtooth) / rate if sawtooth else np.full(len(runs), math.inf)
+    steps_taken = courant * Refinement(tuple(runs)).h ** 2
+    predicted = steps_taken * math.log(tolerance / sawtooth) / rate if sawtooth else np.full(len(runs), math.inf)
     return HeatOnset(Refinement(tuple(runs)), tuple(departures), tolerance, np.array(times), predicted)

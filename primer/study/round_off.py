@@ -8,6 +8,7 @@ ln(1/size)/growth.
 
 import math
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -20,7 +21,7 @@ from primer.schemes.run import Run, Seed, Stop
 from primer.study.spectrum import growth
 
 #: The precision ladder: what ``ftcs`` is told, by name.
-PRECISIONS = {
+PRECISIONS: dict[str, dict[str, Any]] = {
     "float32": {"dtype": np.float32},
     "float64": {"dtype": np.float64},
     "longdouble": {"dtype": np.longdouble},

@@ -13,6 +13,8 @@ The first bound grows with u and the second falls. Where g < -1 the sawtooth has
 ill-posedness as this grid sees it, and the finer the grid the faster.
 """
 
+from __future__ import annotations
+
 import math
 
 import numpy as np
@@ -21,12 +23,13 @@ from primer.checks import instance, real, real_array, shown
 from primer.problems.toy import Toy
 from primer.schemes.discrete import amplification
 from primer.schemes.grid import Grid
+from primer.types import ArrayLike, Numbers
 
 # max m of u = a - m cos x at eps = 0: 1 + e^{-t/2} cos(pi/6) at t = (5 pi/3)/sqrt(3), where m' = 0.
 OVERSHOOT = 1 + math.sqrt(3) / 2 * math.exp(-5 * math.pi / (6 * math.sqrt(3)))
 
 
-def frozen_dt(h, u, eps):
+def frozen_dt(h: float, u: ArrayLike, eps: float) -> Numbers:
     """The largest dt for which no mode grows on spacing h with u frozen; 0 where it is ill posed for every dt.
 
     Parameters
@@ -46,7 +49,7 @@ def frozen_dt(h, u, eps):
     return float(dt) if dt.ndim == 0 else dt
 
 
-def stable_dt(toy, n, u=None):
+def stable_dt(toy: Toy, n: int, u: ArrayLike | None = None) -> float:
     """The largest dt for which no frozen mode of the scheme grows, at any u that the run visits; 0 if there is none.
 
     At eps = 0 it is h^2 (2, on four points). A blow-up with a larger dt may be of the scheme, and a smaller dt then
@@ -75,7 +78,7 @@ def stable_dt(toy, n, u=None):
     return float(np.min(frozen_dt(Grid(n).h, np.array([values.min(), values.max()]), toy.eps)))
 
 
-def amplification_over_modes(toy, n, dt, u):
+def amplification_over_modes(toy: Toy, n: int, dt: float, u: float) -> tuple[np.ndarray, np.ndarray]:
     """(k, factors): |1 + dt lam| of every wavenumber k = 0 ... n/2 on a frozen u, the larger root first; (n//2 + 1, 2).
 
     A value over 1 that goes down to 1 and below as dt is halved is numerical instability; one whose logarithm per unit

@@ -24,15 +24,17 @@ class Table:
     """
 
     def __init__(self, path, settings, keys, values):
-        self.path, self.rows, self._keys = (None if path is None else _usable(path)), {}, len(keys)
+        self.path = None if path is None else _usable(path)
+        self.rows: dict[tuple, tuple] = {}
+        self._keys = len(keys)
         self._head = "# " + " ".join(f"{name}={value!r}" for name, value in settings.items())
         self._names = [*keys, *values]
         if self.path is not None and self.path.exists():
-            self._read()
+            self._read(self.path)
 
-    def _read(self):
+    def _read(self, path):
         try:
-            with self.path.open(newline="", encoding="utf-8") as file:
+            with path.open(newline="", encoding="utf-8") as file:
                 head, (names, *rows) = file.readline().rstrip("\r\n"), csv.reader(file, strict=True)
             for row in rows:
                 key, value = row[: self._keys], row[self._keys :]
@@ -42,7 +44,7 @@ class Table:
             head, names, sound = "", [], False
         if not sound or head != self._head or names != self._names:
             raise ValueError(
-                f"table must be new or one of the same sweep ({self._head[2:]}), undamaged, got {str(self.path)!r}"
+                f"table must be new or one of the same sweep ({self._head[2:]}), undamaged, got {str(path)!r}"
             )
 
     def add(self, rows):

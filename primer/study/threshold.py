@@ -36,7 +36,7 @@ class GridThreshold:
     mode: Mode | None
 
 
-def grid_threshold(a, eps=0.01):
+def grid_threshold(a: float, eps: float = 0.01) -> GridThreshold:
     """The first grid on which the steady state of the toy system is unstable: smaller n hide that it is ill posed.
 
     ``frozen`` is the estimate eps (1 - a) n^2/pi^2 = 1 from coefficients frozen at x = 0. The perturbation must live in
@@ -65,7 +65,7 @@ def grid_threshold(a, eps=0.01):
     return GridThreshold(toy.a, toy.eps, frozen, n, None if n is None else fastest(toy, n))
 
 
-def unstable(toy, n):
+def unstable(toy: Toy, n: int) -> bool:
     """Whether some perturbation of the discrete steady state grows on n points."""
     return depth(toy, n) > 0 and growth(toy, n) > 0
 

@@ -1,10 +1,12 @@
 """The explorer of the base state: growth curve, Dist(t) and fields of the toy system, linked."""
 
+from collections.abc import Sequence
 from typing import ClassVar
 
 import numpy as np
+from matplotlib.axes import Axes
 
-from primer.scenes.base_state import T_END, base_state
+from primer.scenes.base_state import T_END, BaseStateAnswer, base_state
 from primer.view.explorers.controls import Number
 from primer.view.explorers.explorer import Explorer
 from primer.view.growth import draw_growth, shade_growing
@@ -12,7 +14,7 @@ from primer.view.runs import draw_dist, draw_fields
 from primer.view.style import STEADY, V
 
 
-def draw_base_state(axes, answer, t):
+def draw_base_state(axes: Sequence[Axes], answer: BaseStateAnswer, t: float) -> None:
     """(growth, Dist, fields) of a ``BaseStateAnswer`` on three axes, the fields at time t or where the run stopped."""
     growth, dist, fields = axes
     run = answer.run

@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from html import escape
 from threading import RLock
-from typing import ClassVar
+from typing import Any, ClassVar, Self
 
 import ipywidgets as widgets
 
@@ -37,10 +37,11 @@ class Explorer:
     looks: ClassVar[tuple] = ()
     presets: ClassVar[dict]
 
-    def __init__(self, **values):
+    def __init__(self, **values: Any) -> None:
         self.verdict = ""
         self._picture = Picture(self.layout, self.draw)
-        self._asked = self._answer = None
+        self._asked: dict[str, Any] | None = None
+        self._answer: Any = None
         self._rows = {control.name: control.build(self._update) for control in self._all()}
         self._said, self._image, self._copy = _outputs()
         self._copy.observe(self._restore, "value")
@@ -48,7 +49,7 @@ class Explorer:
         self.set(**values)
 
     @classmethod
-    def from_state(cls, text):
+    def from_state(cls, text: str) -> Self:
         """The explorer in a state such as ``"a=0.6,n=64"``; what is left out keeps its default.
 
         Raises
@@ -58,7 +59,7 @@ class Explorer:
         return cls(**read_state(cls._all(), text))
 
     @classmethod
-    def snapshot(cls, state="", **values):
+    def snapshot(cls, state: str = "", **values: Any) -> Snapshot:
         """A still picture of a state, with its verdict: for pages that are printed, or read where nothing runs.
 
         Raises
@@ -72,21 +73,21 @@ class Explorer:
         return Snapshot(answer.verdict, png, write_state(cls._all(), values))
 
     @property
-    def values(self):
+    def values(self) -> dict[str, Any]:
         """Name -> what each control says."""
         return {name: row.get() for name, row in self._rows.items()}
 
     @property
-    def state(self):
+    def state(self) -> str:
         """The state as a text to copy, which ``from_state`` gives back."""
         return write_state(self._all(), self.values)
 
     @property
-    def png(self):
+    def png(self) -> bytes:
         """The picture, as bytes."""
         return bytes(self._image.value)
 
-    def set(self, **values):
+    def set(self, **values: Any) -> None:
         """Move some controls at once; the answer is found once.
 
         Raises
@@ -97,11 +98,11 @@ class Explorer:
             self._rows[name].show(value)
         self._update()
 
-    def reset(self):
+    def reset(self) -> None:
         """Back to where it began."""
         self.set(**defaults(self._all()))
 
-    def preset(self, name):
+    def preset(self, name: str) -> None:
         """One of the settings worth seeing.
 
         Raises

@@ -1,11 +1,13 @@
 """The explorer of the backward heat equation: how soon a grid takes over, and from how little."""
 
 import math
+from collections.abc import Sequence
 from typing import ClassVar
 
 import numpy as np
+from matplotlib.axes import Axes
 
-from primer.scenes.heat import T_END, TOLERANCE, heat
+from primer.scenes.heat import T_END, TOLERANCE, HeatAnswer, heat
 from primer.schemes.run import Stop
 from primer.view.explorers.controls import Number
 from primer.view.explorers.explorer import Explorer
@@ -16,7 +18,7 @@ from primer.view.style import STEADY
 _LINES = ("-", "--")
 
 
-def draw_heat(axes, answer, t):
+def draw_heat(axes: Sequence[Axes], answer: HeatAnswer, t: float) -> None:
     """(solution, departure, growth) of a ``HeatAnswer`` on three axes, the solution at time t or where it stopped."""
     solution, departure, growth = axes
     run = answer.onset.refinement.runs[0]

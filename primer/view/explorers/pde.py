@@ -1,11 +1,14 @@
 """The explorer of any PDE: its symbol, the growth of its waves with and without a grid, and the verdict."""
 
+from collections.abc import Sequence
+from fractions import Fraction
 from typing import ClassVar
 
 import numpy as np
+from matplotlib.axes import Axes
 
 from primer.analysis.puiseux import Law
-from primer.scenes.pde import TOY, XI, pde
+from primer.scenes.pde import TOY, XI, PDEAnswer, pde
 from primer.view.explorers.controls import Choice, Line, Number
 from primer.view.explorers.explorer import Explorer
 from primer.view.growth import draw_growth, shade_growing
@@ -14,7 +17,7 @@ from primer.view.style import STEADY, V
 _WIDE, _TALL = 42, 20  # characters and lines of the symbol that fit beside the picture
 
 
-def draw_pde(axes, answer):
+def draw_pde(axes: Sequence[Axes], answer: PDEAnswer) -> None:
     """(growth, symbol as text) of a ``PDEAnswer`` on two axes."""
     growth, beside = axes
     draw_growth(growth, answer.xi, answer.rate, label="the equations", color="black")
@@ -23,7 +26,8 @@ def draw_pde(axes, answer):
     found = answer.found
     if found.direction and found.coefficient:
         far = XI[XI >= 10]
-        name = str(Law(found.exponent, found.coefficient)).replace("lambda", "λ").replace("xi", "ξ").replace("->", "→")
+        law = Law(Fraction(found.exponent), found.coefficient)
+        name = str(law).replace("lambda", "λ").replace("xi", "ξ").replace("->", "→")
         growth.plot(far, found.coefficient * far ** float(found.exponent), color=STEADY, ls=":", lw=2.5, label=name)
     top, bottom = _decades(np.nanmax(answer.rate)), min(_decades(-np.nanmin(answer.rate)), 3)
     growth.set_xscale("log")

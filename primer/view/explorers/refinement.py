@@ -1,11 +1,13 @@
 """The explorer of refinement: three grids side by side, and whether the finest of them is the best."""
 
 import math
+from collections.abc import Sequence
 from typing import ClassVar
 
 import numpy as np
+from matplotlib.axes import Axes
 
-from primer.scenes.refinement import T_END, refinement
+from primer.scenes.refinement import T_END, RefinementAnswer, refinement
 from primer.view.explorers.controls import Number
 from primer.view.explorers.explorer import Explorer
 from primer.view.growth import draw_growth, shade_growing
@@ -15,7 +17,7 @@ from primer.view.style import STEADY
 _LINES = ("-", "--", "-.")
 
 
-def draw_refinement(axes, answer, t):
+def draw_refinement(axes: Sequence[Axes], answer: RefinementAnswer, t: float) -> None:
     """(Dist, u, growth) of a ``RefinementAnswer`` on three axes, u at time t or where each run stopped."""
     dist, u, growth = axes
     coarsest = answer.runs[0]

@@ -1,12 +1,14 @@
 """The explorer of the granular laws: growth over direction and over |xi|, and the map of the states, linked."""
 
+from collections.abc import Sequence
 from typing import ClassVar
 
 import numpy as np
+from matplotlib.axes import Axes
 from scipy.ndimage import distance_transform_edt, label
 
 from primer.granular.fastest import fastest
-from primer.scenes.rheology import LAWS, Kind, rheology
+from primer.scenes.rheology import LAWS, Kind, RheologyAnswer, rheology
 from primer.view.explorers.controls import Choice, Number
 from primer.view.explorers.explorer import Explorer
 from primer.view.granular_growth import KINDS, draw_growth, draw_map, draw_polar, frame_polar, look
@@ -17,7 +19,7 @@ DECADES = 8  # of growth that the polar panel shows
 _PAPER = {"facecolor": "white", "edgecolor": "none", "alpha": 0.85, "pad": 1.5}
 
 
-def draw_rheology(axes, answer, k):
+def draw_rheology(axes: Sequence[Axes], answer: RheologyAnswer, k: float) -> None:
     """(polar, growth, map) of a ``RheologyAnswer`` on three axes, the first polar, at |xi| d = k."""
     polar, growth, states = axes
     name, color, ls = look(answer.law)
