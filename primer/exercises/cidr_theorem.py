@@ -1,6 +1,6 @@
 """Exercises of notebook 07, the CIDR theorem."""
 
-from primer.exercises.answers import check, choose, variant
+from primer.exercises.answers import Feedback, check, choose, variant
 
 # Laws at p = 0.2 C, phi = 0.55, I = 0.1 unless said otherwise, and what each fails; ``granular.violations`` has them.
 _LAWS = (
@@ -31,7 +31,7 @@ def _first(seed):
     )
 
 
-def ask_07_1(seed=0):
+def ask_07_1(seed: int = 0) -> str:
     """The question: the determinant that the theorem turns on."""
     g = _first(seed)
     return (
@@ -40,7 +40,7 @@ def ask_07_1(seed=0):
     )
 
 
-def check_07_1(answer, seed=0):
+def check_07_1(answer: float, seed: int = 0) -> Feedback:
     """Whether ``answer`` is (e41) with (43b) and (42b), this with its factor A, to 2 in a thousand; a ``Feedback``."""
     g = _first(seed)
     A, B, Gamma, t = g["A"], g["B"], g["Gamma"], g["t"]
@@ -66,7 +66,7 @@ def _second(seed):
     return variant("07_2", seed, m=(0.3, 0.2, 0.25, 0.5), q=(0.5, 0.25, 0.75, 0.6))
 
 
-def ask_07_2(seed=0):
+def ask_07_2(seed: int = 0) -> str:
     """The question: Lemma 1 for a power law."""
     g = _second(seed)
     return (
@@ -75,7 +75,7 @@ def ask_07_2(seed=0):
     )
 
 
-def check_07_2(answer, seed=0):
+def check_07_2(answer: float, seed: int = 0) -> Feedback:
     """Whether ``answer`` is 4 m (1 + q)/(2 + 5 q), to one per cent; a ``Feedback``.
 
     From (5/2) I alpha' + alpha = 2 mu + 2 I mu', the equation in the proof of Lemma 1.
@@ -101,7 +101,7 @@ def _third(seed):
     return variant("07_3", seed, law=_LAWS)["law"]
 
 
-def ask_07_3(seed=0):
+def ask_07_3(seed: int = 0) -> str:
     """The question: which hypothesis a law fails."""
     options = ", ".join(repr(option) for option in _HINTS)
     return (
@@ -109,7 +109,7 @@ def ask_07_3(seed=0):
     )
 
 
-def check_07_3(answer, seed=0):
+def check_07_3(answer: str, seed: int = 0) -> Feedback:
     """Whether ``answer`` names what the law fails of (Cmu-well-posed-cond) and (ineq-for-thm); a ``Feedback``."""
     truth = _third(seed)[1]
     hints = {option: hint for option, hint in _HINTS.items() if option != truth}

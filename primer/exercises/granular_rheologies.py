@@ -2,7 +2,7 @@
 
 import math
 
-from primer.exercises.answers import check, choose, variant
+from primer.exercises.answers import Feedback, check, choose, variant
 from primer.scenes.rheology import Kind, rheology
 
 _KINDS = {
@@ -28,7 +28,7 @@ def _first(seed):
     return variant("06_1", seed, mu=(0.4, 0.3, 0.5, 0.6, 0.35, 0.25))
 
 
-def ask_06_1(seed=0):
+def ask_06_1(seed: int = 0) -> str:
     """The question: the direction in which a Coulomb material is worst."""
     mu = _first(seed)["mu"]
     return (
@@ -37,7 +37,7 @@ def ask_06_1(seed=0):
     )
 
 
-def check_06_1(answer, seed=0):
+def check_06_1(answer: float, seed: int = 0) -> Feedback:
     """Whether ``answer`` is arccos(-tan(arcsin(mu)/2))/2 in degrees, to one per cent; a ``Feedback``.
 
     Without rate dependence the growth rate is -(t/(rho phi)) |xi|^2 x (x + mu)/(1 + mu x), largest at that x.
@@ -67,7 +67,7 @@ def _second(seed):
     return variant("06_2", seed, mu=(0.4, 0.3, 0.5, 0.6, 0.35, 0.45))
 
 
-def ask_06_2(seed=0):
+def ask_06_2(seed: int = 0) -> str:
     """The question: how much rate dependence cures the incompressible equations."""
     mu = _second(seed)["mu"]
     return (
@@ -76,7 +76,7 @@ def ask_06_2(seed=0):
     )
 
 
-def check_06_2(answer, seed=0):
+def check_06_2(answer: float, seed: int = 0) -> Feedback:
     """Whether ``answer`` is the smaller root of 4 n^2 - 4 n + mu^2 (1 - n/2)^2 = 0, to one per cent; a ``Feedback``.
 
     That is (4 + mu^2/4) n^2 - (4 + mu^2) n + mu^2 = 0, close to n = mu^2/4.
@@ -104,7 +104,7 @@ def _third(seed):
     return variant("06_3", seed, state=_STATES)["state"]
 
 
-def ask_06_3(seed=0):
+def ask_06_3(seed: int = 0) -> str:
     """The question: what a law is at a state."""
     law, I, ratio = _third(seed)
     options = ", ".join(repr(text) for text, _ in _KINDS.values())
@@ -114,7 +114,7 @@ def ask_06_3(seed=0):
     )
 
 
-def check_06_3(answer, seed=0):
+def check_06_3(answer: str, seed: int = 0) -> Feedback:
     """Whether ``answer`` is the kind that the closed forms of section 4 give; a ``Feedback``."""
     kind = rheology(*_third(seed)).kind
     hints = {text: hint for other, (text, hint) in _KINDS.items() if other != kind}

@@ -2,14 +2,14 @@
 
 import math
 
-from primer.exercises.answers import check, choose, variant
+from primer.exercises.answers import Feedback, check, choose, variant
 
 
 def _first(seed):
     return variant("08_1", seed, nu=(2, 1, 0.5, 3), delta=(0.05, 0.02, 0.1, 0.04))
 
 
-def ask_08_1(seed=0):
+def ask_08_1(seed: int = 0) -> str:
     """The question: the fastest wave of a regularised equation."""
     given = _first(seed)
     return (
@@ -18,7 +18,7 @@ def ask_08_1(seed=0):
     )
 
 
-def check_08_1(answer, seed=0):
+def check_08_1(answer: float, seed: int = 0) -> Feedback:
     """Whether ``answer`` is nu^2/(4 delta), the largest nu xi^2 - delta xi^4, to 5 in 1000; a ``Feedback``."""
     given = _first(seed)
     nu, delta = given["nu"], given["delta"]
@@ -42,7 +42,7 @@ def _second(seed):
     return variant("08_2", seed, t=(0.05, 0.02, 0.1), noise=(1e-4, 1e-6, 1e-3, 1e-2))
 
 
-def ask_08_2(seed=0):
+def ask_08_2(seed: int = 0) -> str:
     """The question: how many waves noise leaves."""
     given = _second(seed)
     return (
@@ -52,7 +52,7 @@ def ask_08_2(seed=0):
     )
 
 
-def check_08_2(answer, seed=0):
+def check_08_2(answer: float, seed: int = 0) -> Feedback:
     """Whether ``answer`` is sqrt(ln(1/noise)/t), where noise e^(k^2 t) = 1, to one per cent; a ``Feedback``."""
     given = _second(seed)
     t, noise = given["t"], given["noise"]
@@ -89,7 +89,7 @@ def _third(seed):
     return variant("08_3", seed, equation=tuple(_TERMS))["equation"]
 
 
-def ask_08_3(seed=0):
+def ask_08_3(seed: int = 0) -> str:
     """The question: which term makes it well posed."""
     equation = _third(seed)
     right, wrong = _TERMS[equation]
@@ -97,7 +97,7 @@ def ask_08_3(seed=0):
     return f"{equation} is ill posed. Which term, added on the right with a small delta > 0, cures that: {options}?"
 
 
-def check_08_3(answer, seed=0):
+def check_08_3(answer: str, seed: int = 0) -> Feedback:
     """Whether ``answer`` is the term that bounds the growth as xi -> infinity; a ``Feedback``."""
     right, wrong = _TERMS[_third(seed)]
     return choose(answer, right, "growth is bounded now, and the bound goes to infinity as delta goes to zero.", wrong)

@@ -2,14 +2,14 @@
 
 import math
 
-from primer.exercises.answers import check, choose, variant
+from primer.exercises.answers import Feedback, check, choose, variant
 
 
 def _first(seed):
     return variant("04_1", seed, a=(1.5, 2.0, 1.2, 3.0), n=(400, 300, 500, 800))
 
 
-def ask_04_1(seed=0):
+def ask_04_1(seed: int = 0) -> str:
     """The question: the largest step for the sawtooth."""
     given = _first(seed)
     return (
@@ -18,7 +18,7 @@ def ask_04_1(seed=0):
     )
 
 
-def check_04_1(answer, seed=0):
+def check_04_1(answer: float, seed: int = 0) -> Feedback:
     """Whether ``answer`` is 2/(1 + 4 eps (a + 1)/h^2), to two per cent; a ``Feedback``.
 
     To the sawtooth the first difference is zero and the second is -4/h^2, so that v is multiplied each step by
@@ -56,7 +56,7 @@ def _second(seed):
     return {"a": a, "n": n, "soon": soon, "late": late}
 
 
-def ask_04_2(seed=0):
+def ask_04_2(seed: int = 0) -> str:
     """The question: a growth rate from two blow-ups."""
     given = _second(seed)
     return (
@@ -65,7 +65,7 @@ def ask_04_2(seed=0):
     )
 
 
-def check_04_2(answer, seed=0):
+def check_04_2(answer: float, seed: int = 0) -> Feedback:
     """Whether ``answer`` is 8 ln(10) over the time between, to four per cent; a ``Feedback``."""
     given = _second(seed)
     between = given["late"] - given["soon"]
@@ -108,7 +108,7 @@ def _third(seed):
     return variant("04_3", seed, case=tuple(_KINDS))["case"]
 
 
-def ask_04_3(seed=0):
+def ask_04_3(seed: int = 0) -> str:
     """The question: what kind of run."""
     a, n, dt, t_end = _third(seed)
     return (
@@ -117,7 +117,7 @@ def ask_04_3(seed=0):
     )
 
 
-def check_04_3(answer, seed=0):
+def check_04_3(answer: str, seed: int = 0) -> Feedback:
     """Whether ``answer`` is the :class:`primer.study.diagnosis.Kind` of the run; a ``Feedback``."""
     kind = _KINDS[_third(seed)]
     hints = {other: hint for other, hint in _HINTS.items() if other != kind}

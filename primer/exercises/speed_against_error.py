@@ -2,7 +2,7 @@
 
 import math
 
-from primer.exercises.answers import check, variant
+from primer.exercises.answers import Feedback, check, variant
 
 
 def _first(seed):
@@ -20,7 +20,7 @@ def _first(seed):
     )["pairs"]
 
 
-def ask_05_1(seed=0):
+def ask_05_1(seed: int = 0) -> str:
     """The question: an order of accuracy."""
     n1, e1, n2, e2 = _first(seed)
     return (
@@ -29,7 +29,7 @@ def ask_05_1(seed=0):
     )
 
 
-def check_05_1(answer, seed=0):
+def check_05_1(answer: float, seed: int = 0) -> Feedback:
     """Whether ``answer`` is ln(e1/e2)/ln(N2/N1), to one per cent; a ``Feedback``."""
     n1, e1, n2, e2 = _first(seed)
     return check(
@@ -50,7 +50,7 @@ def _second(seed):
     return variant("05_2", seed, order=(2, 4, 6), ratio=(10, 20, 50))
 
 
-def ask_05_2(seed=0):
+def ask_05_2(seed: int = 0) -> str:
     """The question: what a better answer costs."""
     given = _second(seed)
     return (
@@ -59,7 +59,7 @@ def ask_05_2(seed=0):
     )
 
 
-def check_05_2(answer, seed=0):
+def check_05_2(answer: float, seed: int = 0) -> Feedback:
     """Whether ``answer`` is ratio^(3/order), to 2 in 1000; a ``Feedback``. Work is points times steps, N^3."""
     given = _second(seed)
     p, ratio = given["order"], given["ratio"]
@@ -84,7 +84,7 @@ def _third(seed):
     return variant("05_3", seed, space=tuple(_LARGEST), a=(0.5, 0.2, 0.6), eps=(0.01, 0.02))
 
 
-def ask_05_3(seed=0):
+def ask_05_3(seed: int = 0) -> str:
     """The question: the frozen threshold of a better stencil."""
     given = _third(seed)
     known = {
@@ -98,7 +98,7 @@ def ask_05_3(seed=0):
     )
 
 
-def check_05_3(answer, seed=0):
+def check_05_3(answer: float, seed: int = 0) -> Feedback:
     """Whether ``answer`` is 2 pi/sqrt(c eps (1 - a)), -c/h^2 being the multiplier, to one per cent; a ``Feedback``.
 
     Growth needs 1 + eps (a - 1) c/h^2 < 0, eq. (toy-mat).

@@ -2,7 +2,7 @@
 
 import math
 
-from primer.exercises.answers import check, choose, variant
+from primer.exercises.answers import Feedback, check, choose, variant
 from primer.study.threshold import grid_threshold
 
 WELL, SEEN, HIDDEN = "well posed", "ill posed, and the grid shows it", "ill posed, and the grid hides it"
@@ -12,12 +12,12 @@ def _first(seed):
     return variant("00_1", seed, a=(0.3, 0.6, 0.8, 0.1, -0.2, -0.4))
 
 
-def ask_00_1(seed=0):
+def ask_00_1(seed: int = 0) -> str:
     """The question: where u < 0 in the steady state."""
     return f"With a = {_first(seed)['a']}: the steady state u = a - cos x is negative for |x| < c. How large is c?"
 
 
-def check_00_1(answer, seed=0):
+def check_00_1(answer: float, seed: int = 0) -> Feedback:
     """Whether ``answer`` is arccos a, to one per cent; a ``Feedback``. The steady state is eq. (toy-steady)."""
     a = _first(seed)["a"]
     c = math.acos(a)
@@ -39,7 +39,7 @@ def _second(seed):
     return variant("00_2", seed, state=((0.7, 64), (0.7, 140), (1.4, 128), (0.2, 40), (0.2, 120), (-0.5, 28)))
 
 
-def ask_00_2(seed=0):
+def ask_00_2(seed: int = 0) -> str:
     """The question: what a grid makes of a steady state."""
     a, n = _second(seed)["state"]
     return (
@@ -48,7 +48,7 @@ def ask_00_2(seed=0):
     )
 
 
-def check_00_2(answer, seed=0):
+def check_00_2(answer: str, seed: int = 0) -> Feedback:
     """Whether ``answer`` names what the grid makes of the steady state, eq. (toy-steady); a ``Feedback``.
 
     Well posed if a > 1, for then u > 0. If not, the grid shows it from ``grid_threshold(a, eps).n`` points on.

@@ -2,7 +2,7 @@
 
 import math
 
-from primer.exercises.answers import check, choose, variant
+from primer.exercises.answers import Feedback, check, choose, variant
 
 STABLE, UNSTABLE, ILL = "well posed, and nothing grows", "well posed, but unstable", "ill posed"
 
@@ -11,13 +11,13 @@ def _first(seed):
     return variant("02_1", seed, c=(1.5, 0.6, 2.4, 0.9, 6))
 
 
-def ask_02_1(seed=0):
+def ask_02_1(seed: int = 0) -> str:
     """The question: for which base states a nonlinear diffusion is ill posed."""
     c = _first(seed)["c"]
     return f"u_t = (u^3 - {c} u)_xx is ill posed about u* if |u*| < m, and well posed if |u*| > m. What is m?"
 
 
-def check_02_1(answer, seed=0):
+def check_02_1(answer: float, seed: int = 0) -> Feedback:
     """Whether ``answer`` is sqrt(c/3), to one per cent; a ``Feedback``.
 
     The steps of section A2.1 give Re lambda ~ (c - 3 u*^2) xi^2.
@@ -41,13 +41,13 @@ def _second(seed):
     return variant("02_2", seed, c=(3, 1, 1.5, 5), k=(0.2, 0.1, 0.25))
 
 
-def ask_02_2(seed=0):
+def ask_02_2(seed: int = 0) -> str:
     """The question: the ceiling of a growth rate."""
     given = _second(seed)
     return f"u_t = (u^3 - {given['c']} u)_xx - {given['k']} u_xxxx, about u* = 0: what is the largest growth rate?"
 
 
-def check_02_2(answer, seed=0):
+def check_02_2(answer: float, seed: int = 0) -> Feedback:
     """Whether ``answer`` is c^2/(4k), the largest of c xi^2 - k xi^4, to one per cent; a ``Feedback``.
 
     Bounded growth is linear well-posedness, section A2.1.
@@ -72,7 +72,7 @@ def _third(seed):
     return variant("02_3", seed, u=(-0.5, -0.2, -0.8, -1.2), eps=(0.02, 0.01, 0.005))
 
 
-def ask_02_3(seed=0):
+def ask_02_3(seed: int = 0) -> str:
     """The question: from which wavenumber on the toy system grows."""
     given = _third(seed)
     return (
@@ -81,7 +81,7 @@ def ask_02_3(seed=0):
     )
 
 
-def check_02_3(answer, seed=0):
+def check_02_3(answer: float, seed: int = 0) -> Feedback:
     """Whether ``answer`` is 1/sqrt(eps |u*|), to one per cent; a ``Feedback``.
 
     There the trace -eps u* xi^2 - 1 of eq. (toy-mat) vanishes while its determinant xi^2 is positive.
@@ -118,12 +118,12 @@ def _fourth(seed):
     return variant("02_4", seed, pde=tuple(_EQUATIONS))["pde"]
 
 
-def ask_02_4(seed=0):
+def ask_02_4(seed: int = 0) -> str:
     """The question: what an equation is."""
     return f"By hand, then by verdict: is '{_fourth(seed)}': '{STABLE}', '{UNSTABLE}' or '{ILL}'?"
 
 
-def check_02_4(answer, seed=0):
+def check_02_4(answer: str, seed: int = 0) -> Feedback:
     """Whether ``answer`` is what section A2.1 makes of the equation; a ``Feedback``."""
     truth, hint = _EQUATIONS[_fourth(seed)]
     hints = {option: hint for option in (STABLE, UNSTABLE, ILL) if option != truth}

@@ -2,7 +2,7 @@
 
 import math
 
-from primer.exercises.answers import check, choose, variant
+from primer.exercises.answers import Feedback, check, choose, variant
 
 ALWAYS, A_WHILE, NEVER = "for all time", "for a while", "for no time at all"
 
@@ -11,7 +11,7 @@ def _first(seed):
     return variant("01_1", seed, xi=(30, 20, 50, 80), digits=(10, 6, 8, 12))
 
 
-def ask_01_1(seed=0):
+def ask_01_1(seed: int = 0) -> str:
     """The question: how soon a ripple is large."""
     given = _first(seed)
     return (
@@ -20,7 +20,7 @@ def ask_01_1(seed=0):
     )
 
 
-def check_01_1(answer, seed=0):
+def check_01_1(answer: float, seed: int = 0) -> Feedback:
     """Whether ``answer`` is digits ln(10)/xi^2, by eq. (backward-heat-growing-sln), to one per cent; a ``Feedback``."""
     given = _first(seed)
     xi, digits = given["xi"], given["digits"]
@@ -42,7 +42,7 @@ def _second(seed):
     return variant("01_2", seed, s=(0.2, 0.3, 0.15, 0.25, 0.4))
 
 
-def ask_01_2(seed=0):
+def ask_01_2(seed: int = 0) -> str:
     """The question: how long a row of Gaussians has a solution."""
     return (
         f"u_t = -u_xx starts from a row of Gaussians, exp(-x^2/(2 s^2)) with s = {_second(seed)['s']}, repeated with "
@@ -50,7 +50,7 @@ def ask_01_2(seed=0):
     )
 
 
-def check_01_2(answer, seed=0):
+def check_01_2(answer: float, seed: int = 0) -> Feedback:
     """Whether ``answer`` is s^2/2, to one per cent; a ``Feedback``.
 
     The sum of e^{2 n^2 t} |c_n|^2, eq. (L2norm-sln), is one of e^{n^2 (2t - s^2)}.
@@ -83,14 +83,14 @@ def _third(seed):
     return variant("01_3", seed, data=tuple(_DATA))["data"]
 
 
-def ask_01_3(seed=0):
+def ask_01_3(seed: int = 0) -> str:
     """The question: whether data have a solution."""
     return (
         f"u_t = -u_xx starts from u(x, 0) = {_third(seed)}. Is there a solution '{ALWAYS}', '{A_WHILE}' or '{NEVER}'?"
     )
 
 
-def check_01_3(answer, seed=0):
+def check_01_3(answer: str, seed: int = 0) -> Feedback:
     """Whether ``answer`` says for how long the data have a solution; a ``Feedback``.
 
     Finitely many modes live for ever; coefficients like e^{-s n^2} until t = s; all that fall more slowly than any

@@ -81,7 +81,7 @@ def draw_window(ax, c, k, degrees, step=1.0):
 
     degrees = (low, high), from the major compressive axis.
     """
-    fine = np.linspace(*degrees, 2001)
+    fine = np.linspace(degrees[0], degrees[1], 2001)
     coarse = np.arange(np.ceil(degrees[0] / step), np.floor(degrees[1] / step) + 1) * step
     for value, ls in zip(k, ("-", "--", "-.", ":"), strict=False):
         (line,) = ax.plot(fine, _rate(c, value, fine), ls=ls, label=rf"$|\xi|\,d$ = {value:,.0f}")

@@ -87,7 +87,7 @@ def pack(states):
     ``states[i][j]`` names for each curve the places of its coordinates in ``arrays``, which holds each array once, as
     base64 of little-endian float32: the numbers are rounded to 24 bits, and texts are made of the full ones.
     """
-    arrays = {}
+    arrays: dict[str, int] = {}
 
     def place(array):
         text = base64.b64encode(np.asarray(array, dtype="<f4").tobytes()).decode()
