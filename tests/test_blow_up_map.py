@@ -55,6 +55,7 @@ def test_any_executor_gives_the_same_map(reference, pool):
         same(blow_up_map(A, N, t_end=30.0, executor=executor, progress=False), reference)
 
 
+@pytest.mark.slow
 def test_dask_gives_the_same_map(reference):
     distributed = pytest.importorskip("distributed")
     with (

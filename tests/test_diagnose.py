@@ -56,6 +56,7 @@ def consistent(kind, toy, run):
     }[kind]
 
 
+@pytest.mark.slow
 def test_a_blow_up_of_the_scheme_is_cured_by_a_smaller_step_and_no_other():
     """Scenes that blow up on grids quick to march, marched again with a small dt."""
     seen = set()
@@ -75,6 +76,7 @@ def test_the_reason_says_why_the_equations_are_well_posed():
     assert "well posed, as u stays positive" in diagnose(Toy(1.5), 40, 1e-3, 5.0).reason
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("case", HARD_CASES, ids=lambda case: case.name)
 def test_hard_cases_end_as_they_must(case):
     run, found = case.march(), case.diagnose()

@@ -35,6 +35,7 @@ def test_begins_with_a_picture_and_a_verdict(explorer):
     assert shown.widget.children
 
 
+@pytest.mark.slow
 @every
 def test_every_corner_of_the_controls_gives_a_picture_and_a_verdict(explorer):
     shown, controls = explorer(), (*explorer.controls, *explorer.looks)
@@ -46,6 +47,7 @@ def test_every_corner_of_the_controls_gives_a_picture_and_a_verdict(explorer):
         assert "nan" not in shown.verdict.split()
 
 
+@pytest.mark.slow
 @every
 def test_a_state_comes_back(explorer):
     for state in explorer.presets.values():
@@ -55,6 +57,7 @@ def test_a_state_comes_back(explorer):
         assert np.array_equal(pixels(second.png), pixels(first.png))
 
 
+@pytest.mark.slow
 @every
 def test_reset_and_presets_lead_back_to_the_same_picture(explorer):
     shown = explorer()
@@ -66,6 +69,7 @@ def test_reset_and_presets_lead_back_to_the_same_picture(explorer):
     assert (shown.state, shown.verdict, shown.png) == begun
 
 
+@pytest.mark.slow
 @every
 def test_presets_differ_in_what_they_say(explorer):
     said = [explorer.snapshot(state).verdict for state in explorer.presets.values()]

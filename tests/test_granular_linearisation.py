@@ -206,6 +206,7 @@ def test_closed_form_agrees_with_multiprecision_roots_for_every_law():
                 assert growth_rate(c, k, x) == pytest.approx(exact[0].real, rel=1e-12)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("law", LAWS[:2] + LAWS[2:], ids=lambda law: type(law).__name__)
 def test_the_best_direction_is_that_of_the_general_search(law):
     c, pencil = coefficients(law, STATE), linearise(law, STATE)

@@ -380,6 +380,7 @@ def test_the_theorem_on_100_000_random_states():
     assert (fastest(coefficients(Coulomb(0.3), state), 1.0)[0] > 0).all()
 
 
+@pytest.mark.slow
 def test_the_table_of_violations_breaks_what_it_says():
     rows = {row.name.split(":")[0]: row for row in cases()}
     held = {name: tuple(map(bool, (r.conditions.equality, r.conditions.a, r.conditions.b))) for name, r in rows.items()}
@@ -402,6 +403,7 @@ def test_the_table_of_violations_breaks_what_it_says():
     assert len(table(cases()).splitlines()) == 8
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("law", "state"),
     [

@@ -46,6 +46,7 @@ def test_a_gif_has_its_frames_and_its_speed(short, tmp_path):
     assert np.abs(frames[2] - frames[1]).max() > 100
 
 
+@pytest.mark.slow
 @pytest.mark.skipif("mp4" not in writable(), reason="ffmpeg is not here")
 def test_an_mp4_is_written_though_the_figure_has_an_odd_number_of_pixels(short, tmp_path):
     save_movie(short, tmp_path / "dot.mp4")

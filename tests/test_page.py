@@ -213,6 +213,7 @@ def test_the_readme_counts_the_states():
     assert f"Its {len(explorer.A) * len(explorer.GRIDS)} states" in readme
 
 
+@pytest.mark.slow
 def test_the_presets_are_those_of_the_notebook():
     assert explorer.PRESETS.keys() == BaseStateExplorer.presets.keys()
     for name, (a, n) in explorer.PRESETS.items():
@@ -325,15 +326,12 @@ def in_browser(function):
 
 
 @in_browser
-def test_opens_quickly_and_small(reader, made, capsys):
+def test_opens_quickly_and_small(reader, made, measured):
     seconds = [reader.open() for _ in range(3)]
     reader.shows(1.5, 100)
     size = made.stat().st_size
     assert size < 6_000_000
-    with capsys.disabled():
-        print(
-            f"\nexplorer.html: {size / 1e6:.2f} MB, first state drawn {statistics.median(seconds):.2f} s after opening"
-        )
+    measured(f"explorer.html: {size / 1e6:.2f} MB, first state drawn {statistics.median(seconds):.2f} s after opening")
     assert not reader.errors
 
 
@@ -435,7 +433,7 @@ def test_fits_a_telephone(reader):
 
 
 @in_browser
-def test_a_slider_step_is_drawn_soon(reader, capsys):
+def test_a_slider_step_is_drawn_soon(reader, measured):
     reader.open("#a=0.5&n=100")
     steps = reader.page.evaluate(
         """async () => {
@@ -450,8 +448,7 @@ def test_a_slider_step_is_drawn_soon(reader, capsys):
           return seconds;
         }"""
     )
-    with capsys.disabled():
-        print(f"\nexplorer.html: a slider step is drawn after {1e3 * statistics.median(steps):.0f} ms (median of 20)")
+    measured(f"explorer.html: a slider step is drawn after {1e3 * statistics.median(steps):.0f} ms (median of 20)")
     assert min(steps) > 0  # each step was drawn
     reader.shows(0.5, 100)
     assert not reader.errors

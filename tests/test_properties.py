@@ -204,6 +204,7 @@ def assert_same(found, expected, scale=1.0):
     assert found.bound == pytest.approx(expected.bound, rel=1e-9, abs=1e-9)
 
 
+@pytest.mark.slow
 @few
 @given(systems(), st.permutations(range(3)), st.sampled_from([(2, -3, 5), (-1, 1, 7)]), st.data())
 def test_a_verdict_does_not_depend_on_how_the_equations_are_written(system, places, factors, data):
@@ -218,6 +219,7 @@ def test_a_verdict_does_not_depend_on_how_the_equations_are_written(system, plac
     assert_same(verdict(written(reflected)), expected)  # real coefficients: xi and -xi grow alike
 
 
+@pytest.mark.slow
 @few
 @given(systems(), st.sampled_from([2, 3]))
 def test_a_verdict_knows_the_unit_of_length(system, s):

@@ -50,6 +50,7 @@ def _random_cases(count):
     return [(rng.uniform(1.2, 3), rng.uniform(0, 0.1), rng.uniform(0, 30)) for _ in range(count)]
 
 
+@pytest.mark.slow
 @needs_longdouble
 def test_the_estimate_covers_the_error_and_not_much_more():
     _check_estimates(_random_cases(8))

@@ -33,6 +33,7 @@ def test_roots_and_their_multiplicities(places, factor, power):
         assert not expected
 
 
+@pytest.mark.slow
 @settings(max_examples=20, deadline=None)
 @given(*[st.lists(gaussian, max_size=3)] * 3)
 def test_common_factors(shared, one, two):

@@ -21,6 +21,7 @@ def eigenvalue_growth(answer, k, theta):
     return growth(linearise(answer.law, answer.state), xi) / answer.state.D
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("law", LAWS)
 def test_the_kind_of_random_states_is_what_eigenvalues_do(law):
     rng, seen = np.random.default_rng(3), set()

@@ -62,6 +62,7 @@ def test_a_step_too_large_is_told_from_bad_equations():
     assert "no cure for the equations" in both.verdict
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", range(12))
 def test_kinds_are_those_of_the_diagnosis(seed):
     """Marched here, foreseen there; left out are blow-ups near t = 40, where a few last bits decide."""
