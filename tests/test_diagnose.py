@@ -120,6 +120,7 @@ def test_growth_is_that_of_the_jacobian_with_the_step_taken():
         assert diagnose(Toy(0.5), 100, dt).growth == pytest.approx(expected, rel=1e-6)
 
 
+@pytest.mark.slow
 def test_fewer_digits_blow_up_sooner():
     times = [diagnose(Toy(0.5), dtype=d).t_blow_up for d in (np.float32, np.float64, np.longdouble)]
     times += [diagnose(Toy(0.5), digits=d).t_blow_up for d in (30, 60, 400)]

@@ -76,6 +76,7 @@ def test_presets_differ_in_what_they_say(explorer):
     assert len(set(said)) == len(said)
 
 
+@pytest.mark.slow
 @every
 def test_one_change_is_answered_once(explorer, monkeypatch):
     shown, asked = explorer(), []
@@ -134,6 +135,7 @@ def test_labels_are_there_for_those_who_listen(explorer):
     assert all(isinstance(control, (Number, Choice, Line)) for control in explorer.controls)
 
 
+@pytest.mark.slow
 @every
 def test_a_snapshot_says_what_it_shows(explorer):
     still = explorer.snapshot()

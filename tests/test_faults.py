@@ -36,6 +36,7 @@ import regenerate  # noqa: E402
 A, N = [0.3, 0.6, 1.5], [16, 80, 120]
 BARE = {"LC_ALL": "C", "PYTHONUTF8": "0", "PYTHONCOERCECLOCALE": "0", "PYTHONIOENCODING": "ascii"}
 ODD = "a folder, with (blanks) é ü 漢字 φ"
+pytestmark = pytest.mark.slow
 posix = pytest.mark.skipif(os.name != "posix", reason="sends POSIX signals")
 
 
@@ -124,7 +125,6 @@ def test_figures_on_a_full_disk_are_named_and_the_old_ones_kept(tmp_path):
 RUN = "from primer import Toy, ftcs; run = ftcs(Toy(1.5), 100, 1e-3, 10.0); print(run.stop, run.dist[-1].hex())"
 
 
-@pytest.mark.slow
 def test_a_disk_too_full_for_the_compiler_s_cache_costs_only_time():
     full = "import errno, numba.core.caching as c\ndef full(*_): raise OSError(errno.ENOSPC, 'full')\n"
     full += "c.IndexDataCacheFile.save = full; c.IndexDataCacheFile.load = lambda *_: None\n"
@@ -135,7 +135,6 @@ def test_a_disk_too_full_for_the_compiler_s_cache_costs_only_time():
 # Read-only places
 
 
-@pytest.mark.slow
 def test_a_read_only_installation_and_home_still_run(tmp_path):
     """No folder can be made below a file, not even by root: the nearest to read-only that every account meets."""
     package = shutil.copytree(PACKAGE, tmp_path / "primer", ignore=shutil.ignore_patterns("__pycache__"))
@@ -153,7 +152,6 @@ def test_a_read_only_installation_and_home_still_run(tmp_path):
 
 
 @pytest.mark.skipif(not shutil.which("setpriv") or os.geteuid() != 0, reason="needs root, to become somebody else")
-@pytest.mark.slow
 def test_an_installation_of_another_user_still_runs(tmp_path):
     """As "nobody", who may read everything here (the Python may be in a private folder) and write nothing."""
     read = "dac_read_search"
@@ -171,7 +169,6 @@ def test_an_installation_of_another_user_still_runs(tmp_path):
 
 
 @posix
-@pytest.mark.slow
 def test_a_killed_sweep_goes_on_where_it_was(whole, tmp_path):
     path = tmp_path / "map.csv"
     code = (
@@ -191,7 +188,6 @@ def test_a_killed_sweep_goes_on_where_it_was(whole, tmp_path):
 
 
 @posix
-@pytest.mark.slow
 def test_killed_regenerations_leave_whole_files(tmp_path):
     python(str(REGENERATE), "abs_sin", "fig31", "--out", str(tmp_path))
     made = {path.name: path.read_bytes() for path in tmp_path.iterdir()}
@@ -207,7 +203,6 @@ def test_killed_regenerations_leave_whole_files(tmp_path):
 
 
 @posix
-@pytest.mark.slow
 def test_ctrl_c_ends_a_regeneration_quietly(tmp_path):
     """A map swallows Ctrl-C, to give back what it has: of that no picture may be made."""
     process = start(str(REGENERATE), "grid_map", "--out", str(tmp_path))
@@ -297,7 +292,6 @@ def _inline(_, initializer):
     return ThreadPoolExecutor(1)
 
 
-@pytest.mark.slow
 def test_two_regenerations_at_once_agree(tmp_path):
     one, two = (start(str(REGENERATE), "abs_sin", "fig31", "--out", str(tmp_path)) for _ in range(2))
     for process in (one, two):
@@ -420,7 +414,6 @@ def test_commands_speak_to_a_terminal_of_ascii(arguments):
     assert (bare.stdout + bare.stderr).isascii()
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize(
     "env", [{}, BARE, {"DISPLAY": "", "MPLBACKEND": "tkagg"}], ids=["usual", "ascii", "no display"]
 )

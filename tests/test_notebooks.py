@@ -6,6 +6,8 @@ from pathlib import Path
 import nbformat
 import pytest
 
+from primer import exercises
+
 COURSE = Path(__file__).parents[1] / "notebooks"
 NOTEBOOKS = sorted(path for path in COURSE.rglob("*.ipynb") if ".ipynb_checkpoints" not in path.parts)
 LESSONS = [path for path in NOTEBOOKS if path.parent == COURSE]
@@ -84,6 +86,30 @@ def test_links_lead_somewhere(path):
     for target in re.findall(r"\]\(([^)\s]+)\)", prose(read(path))):
         if not target.startswith(("http://", "https://", "#")):
             assert (path.parent / target.partition("#")[0]).exists(), target
+
+
+def test_the_course_is_a_chain():
+    """Each lesson leads to its neighbours, at the top and at the end, and the first names all."""
+    for before, lesson, after in zip([None, *LESSONS], LESSONS, [*LESSONS[1:], None], strict=False):
+        cells = read(lesson).cells
+        for neighbour in filter(None, (before, after)):
+            assert f"]({neighbour.name})" in cells[0].source, lesson.name
+            assert f"]({neighbour.name})" in cells[-1].source, lesson.name
+    assert all(f"({path.name})" in prose(read(LESSONS[0])) for path in LESSONS[1:])
+
+
+@pytest.mark.parametrize("path", LESSONS, ids=lambda path: path.name)
+def test_every_exercise_is_asked_and_solved(path):
+    """A lesson calls its checkers, and the solutions call them with answers that are right."""
+    number, solved = path.name[:2], read(COURSE / "solutions" / path.name)
+    asked = {name for name in exercises.__all__ if name.startswith(f"check_{number}")}
+    assert len(asked) >= 2
+    for notebook in (read(path), solved):
+        assert asked == set(re.findall(rf"(check_{number}_\d)\(", "\n".join(cell.source for cell in code(notebook))))
+    said = [output.get("data", {}).get("text/plain", "") + output.get("text", "") for output in outputs(solved)]
+    assert sum(text.count("Right:") for text in said) >= len(asked)
+    assert not any("Not yet:" in text for text in said)
+    assert f"](../{path.name})" in prose(solved)
 
 
 def test_students_copy_keeps_their_work(tmp_path):

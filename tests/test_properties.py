@@ -231,6 +231,7 @@ def test_a_verdict_knows_the_unit_of_length(system, s):
     np.testing.assert_allclose(here, there, rtol=1e-6, atol=1e-6 * s**4 * 17.0**2)
 
 
+@pytest.mark.slow
 @few
 @given(*[st.integers(-3, 3)] * 5, st.integers(-2, 2))
 def test_a_verdict_in_the_plane_does_not_depend_on_the_axes(a, b, c, d, e, f):

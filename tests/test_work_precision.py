@@ -22,6 +22,7 @@ def study():
     return work_precision(Toy(1.4, 0.02), 1.0, methods, repeats=1)
 
 
+@pytest.mark.slow
 def test_every_method_solves_the_problem_better_and_better(study):
     assert len(study.methods) == 13
     for method in study.methods:
@@ -63,6 +64,7 @@ def test_cost_is_scaled_to_the_whole_march(monkeypatch):
     assert all(math.isnan(p.error) for p in points)
 
 
+@pytest.mark.slow
 def test_a_blow_up_is_an_infinite_error():
     def blown_up(toy, knob, t_end):
         return np.zeros(knob), np.full((2, knob), np.nan), 0.1
