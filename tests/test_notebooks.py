@@ -112,6 +112,27 @@ def test_every_exercise_is_asked_and_solved(path):
     assert f"](../{path.name})" in prose(solved)
 
 
+def test_the_instructor_is_told_what_is_there():
+    guide = (COURSE / "INSTRUCTORS.md").read_text(encoding="utf-8")
+    minutes = 0
+    for path in LESSONS:
+        text, number = prose(read(path)), path.name[:2]
+        takes = int(re.search(r"\*\*Time:\*\* (\d+) minutes", text)[1])
+        assert re.search(rf"\]\({path.name}\) \| {takes} \|", guide), path.name
+        minutes += takes
+        for name in exercises.__all__:
+            if name.startswith(f"check_{number}"):
+                assert f"{int(number)}.{name[-1]}" in guide, name
+    assert f"{minutes} minutes in all" in guide
+    for row in re.findall(r"^\| (\".*?) \|\s*([\d, ]+) \|", guide, flags=re.M):
+        for said in re.findall(r'"(.*?)"', row[0]):
+            met = {path.name[:2] for path in LESSONS if f'**"{said}"**' in prose(read(path))}
+            assert met, said
+            assert met <= set(row[1].split(", ")), said
+    for target in re.findall(r"\]\(([^)\s]+)\)", guide):
+        assert (COURSE / target).exists(), target
+
+
 def test_students_copy_keeps_their_work(tmp_path):
     from primer.lab import copy_course
 
