@@ -30,7 +30,7 @@ _NEEDS = {
     "blow_up_movie": "ffmpeg or Pillow to be written, and neither is here",
     "explorer": "Bokeh, which the extra 'page' brings: python -m pip install -e \".[page]\"",
 }
-NAMES = sorted({path.stem for path in HERE.glob("*.py")} - {"regenerate", "sidecar", *ON_REQUEST})
+NAMES = sorted({path.stem for path in HERE.glob("*.py")} - {"regenerate", "sidecar", "readme", *ON_REQUEST})
 
 
 def main(arguments=None):

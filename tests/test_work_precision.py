@@ -1,6 +1,5 @@
 """Guards the work-precision study: all methods solve the same problem, the front is one, the table is the data's."""
 
-import importlib.util
 import math
 from pathlib import Path
 
@@ -98,31 +97,3 @@ def test_measurements_survive_the_file(study, tmp_path):
         assert p.error == pytest.approx(q.error, rel=1e-3)
     assert math.isnan(cost_again[0].error)
     assert cost_again[0].seconds == 1.0
-
-
-@pytest.fixture(scope="module")
-def script():
-    spec = importlib.util.spec_from_file_location("benchmark", ROOT / "tests" / "benchmarks" / "work_precision.py")
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
-
-
-def test_the_readme_has_the_table_of_what_was_measured(script):
-    text = (ROOT / "README.md").read_text(encoding="utf-8")
-    block = text.split(script.BEGIN)[1].split(script.END)[0]
-    assert block.strip() == script.table(measured.read(STORE)[0])
-
-
-def test_the_table_is_written_between_the_markers_only(script, tmp_path):
-    readme = tmp_path / "README.md"
-    readme.write_text(f"before\n{script.BEGIN}\nold\n{script.END}\nafter\n", encoding="utf-8")
-    script.write_table(readme)
-    text = readme.read_text(encoding="utf-8")
-    assert text.startswith(f"before\n{script.BEGIN}\n")
-    assert text.endswith(f"\n{script.END}\nafter\n")
-    assert "| FTCS |" in text
-    assert "old" not in text
-    readme.write_text("no markers", encoding="utf-8")
-    with pytest.raises(SystemExit, match="must have the lines"):
-        script.write_table(readme)
