@@ -1,11 +1,15 @@
 """Guards the numbers that the README shows: they are those stored beside the figures, written by a script."""
 
 import json
+import re
 import sys
 from pathlib import Path
 
 import pytest
 
+import primer
+
+PACKAGE = Path(primer.__file__).parent
 ROOT = Path(__file__).parents[1]
 sys.path.insert(0, str(ROOT / "figures"))
 import readme  # noqa: E402
@@ -24,6 +28,20 @@ def test_each_number_is_shown_within_its_claim():
         assert claim.get("low", -1e300) <= shown <= claim.get("high", 1e300)
     (row,) = (line for line in readme.numbers() if "Figure 5): the first u = 0" in line)
     assert "| 0.827 | ± 0.002 | fig33 |" in row
+
+
+def test_the_table_of_the_course_names_what_is_there():
+    text = (ROOT / "README.md").read_text(encoding="utf-8")
+    rows = [row.strip("| ").split(" | ") for row in text.splitlines() if row.startswith("| [0")]
+    lessons = sorted(path.name for path in (ROOT / "notebooks").glob("*.ipynb"))
+    assert [re.search(r"\]\(notebooks/(.*?)\)", row[0])[1] for row in rows] == lessons
+    labels = (ROOT / "tests" / "paper_labels.txt").read_text(encoding="utf-8").split()
+    for _, rooms, figures, equations in rows:
+        for room in re.findall(r"`(.*?)`", rooms):
+            assert any(PACKAGE.glob(f"{room.rstrip('/')}*")), room
+        assert all((ROOT / "figures" / f"{name}.svg").exists() for name in figures.split(", ")), figures
+        for label in re.findall(r"\(([a-z][\w-]+)\)", equations):
+            assert label in labels, label
 
 
 def test_only_what_is_between_the_markers_is_written(tmp_path):
