@@ -149,7 +149,7 @@ def test_a_snapshot_says_what_it_shows(explorer):
 @pytest.mark.slow
 @every
 def test_nothing_piles_up(explorer):
-    steps = 500 if explorer is explorers.BaseStateExplorer else 100
+    steps = 500 if explorer is explorers.BaseStateExplorer else 60
     shown = explorer()
     control = next(c for c in explorer.controls if isinstance(c, Number))
     slider = shown._rows[control.name].widget.children[0]

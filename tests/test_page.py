@@ -14,6 +14,7 @@ import numpy as np
 import pytest
 from jupyter import ARTEFACTS, CHROMIUM, chromium
 
+import primer
 from primer.scenes.base_state import base_state
 from primer.view.explorers import BaseStateExplorer
 from primer.view.page import explorer_page, possible
@@ -21,7 +22,7 @@ from primer.view.page.plots import LINES
 from primer.view.page.states import atlas
 
 FIGURES = Path(__file__).parents[1] / "figures"
-VIEW = FIGURES.parent / "primer" / "view" / "page"
+VIEW = Path(primer.__file__).parent / "view" / "page"
 sys.path.insert(0, str(FIGURES))
 
 import explorer  # noqa: E402
