@@ -7,6 +7,7 @@ import pytest
 
 from primer import Toy, diagnose
 from primer.problems.heat import scaled_amplitude
+from primer.scenes.base_state import base_state
 from primer.scenes.heat import TOLERANCE, heat
 from primer.scenes.refinement import T_END, refinement
 from primer.schemes.grid import Grid
@@ -146,3 +147,11 @@ def test_bad_input_gets_one_sentence(scene, values, error, sentence):
     with pytest.raises(error) as caught:
         scene(**values)
     assert str(caught.value) == sentence
+
+
+def test_no_time_is_foretold_for_a_mode_that_is_lost_in_the_last_bit():
+    assert diagnose(Toy(0.5), n=64, t_end=2000).t_blow_up == math.inf
+    found = base_state(0.5, n=64)
+    assert found.kind is Kind.HIDDEN
+    assert found.growth > 0
+    assert "too slowly for round-off to be seen by t = 100" in found.verdict
