@@ -57,6 +57,12 @@ def test_a_step_too_large_is_told_from_bad_equations():
     assert found.rate[-1].max() > 0 > refinement(1.5, 50, found.gentle_dt[-1]).rate[-1][1:-1].max()
     assert found.gentle_dt[-1] < found.allowed[-1] < 0.02
     assert "It is the scheme" in found.verdict
+    assert growth(Toy(1.5), 100, 0.02) > 0 > growth(Toy(1.5), 50, 0.02)
+    assert "too large for N = 100: perturbations of that rest grow" in found.verdict
+    coarser = refinement(1.5, 25, 0.02)  # nothing has blown up yet
+    assert set(coarser.kinds) == {Kind.CONVERGES}
+    assert "too large for N = 100" in coarser.verdict
+    assert "Refining helps" not in coarser.verdict
     both = refinement(0.5, 64, 0.03)
     assert both.kinds[0] is Kind.SCHEME
     assert both.kinds[-1] is Kind.ILL_POSED
