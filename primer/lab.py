@@ -23,7 +23,7 @@ def add_command(commands):
     )
     parser.add_argument("folder", metavar="FOLDER", type=Path, help="where your copy is, or shall be")
     parser.add_argument("--copy-only", action="store_true", help="copy, and do not open JupyterLab")
-    parser.add_argument("options", nargs="*", metavar="OPTION", help="after --: options of JupyterLab")
+    parser.add_argument("options", nargs="*", default=[], metavar="OPTION", help="after --: options of JupyterLab")
     parser.set_defaults(command=_run)
 
 
@@ -84,5 +84,9 @@ def _run(options):
         return told
     print(told, flush=True)
     start = options.folder / "00_start_here.ipynb"
-    subprocess.run([sys.executable, "-m", "jupyterlab", str(start), *options.options], check=False)
+    # The address that JupyterLab prints is of the first notebook, too: with --no-browser it is all there is.
+    first = f"--LabApp.default_url=/lab/tree/{start.name}"
+    ended = subprocess.run([sys.executable, "-m", "jupyterlab", str(start), first, *options.options], check=False)
+    if ended.returncode:
+        raise ValueError(f"JupyterLab must end well, got its exit code {ended.returncode}; the reason is printed above")
     return "JupyterLab has closed"

@@ -52,6 +52,7 @@ def test_the_right_choice_is_found_right_and_each_other_has_a_hint(name):
         assert check(truth, seed).right, (seed, truth)
         with pytest.raises(ValueError, match=r"answer must be one of '.*', got 'no such answer'") as error:
             check("no such answer", seed)
+        assert check(f" {truth.upper()} ", seed).right
         options = [text for text in str(error.value).split(", got")[0].split("'")[1::2] if text != truth]
         assert options
         hints = [check(option, seed) for option in options]

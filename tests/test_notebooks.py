@@ -159,3 +159,27 @@ def test_a_folder_that_cannot_be(tmp_path, capsys):
     assert re.fullmatch(r"primer: FOLDER must be a folder that can be written, got '.*' \(.*\)\n", said.err)
     assert main(["lab", "--copy-only", str(tmp_path / "course")]) == 0
     assert "notebooks copied" in capsys.readouterr().out
+
+
+def test_jupyterlab_starts_on_the_first_notebook_and_its_failure_is_told(tmp_path, capsys, monkeypatch):
+    from subprocess import CompletedProcess
+
+    from primer import lab
+    from primer.__main__ import main
+
+    started, code = [], 0
+
+    def start(command, check):
+        started.append(command)
+        return CompletedProcess(command, code)
+
+    monkeypatch.setattr(lab.subprocess, "run", start)
+    assert main(["lab", str(tmp_path), "--", "--no-browser"]) == 0
+    assert "--LabApp.default_url=/lab/tree/00_start_here.ipynb" in started[0]  # the address it prints
+    assert started[0][-1] == "--no-browser"
+    code = 1
+    assert main(["lab", str(tmp_path)]) == 2
+    assert "got its exit code 1" in capsys.readouterr().err
+    with pytest.raises(SystemExit):
+        main(["lab"])
+    assert capsys.readouterr().err.rstrip().endswith("required: FOLDER")

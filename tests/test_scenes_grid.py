@@ -7,6 +7,7 @@ import pytest
 
 from primer import Toy, diagnose
 from primer.problems.heat import scaled_amplitude
+from primer.scenes.base_state import base_state
 from primer.scenes.heat import TOLERANCE, heat
 from primer.scenes.refinement import T_END, refinement
 from primer.schemes.grid import Grid
@@ -56,6 +57,12 @@ def test_a_step_too_large_is_told_from_bad_equations():
     assert found.rate[-1].max() > 0 > refinement(1.5, 50, found.gentle_dt[-1]).rate[-1][1:-1].max()
     assert found.gentle_dt[-1] < found.allowed[-1] < 0.02
     assert "It is the scheme" in found.verdict
+    assert growth(Toy(1.5), 100, 0.02) > 0 > growth(Toy(1.5), 50, 0.02)
+    assert "too large for N = 100: perturbations of that rest grow" in found.verdict
+    coarser = refinement(1.5, 25, 0.02)  # nothing has blown up yet
+    assert set(coarser.kinds) == {Kind.CONVERGES}
+    assert "too large for N = 100" in coarser.verdict
+    assert "Refining helps" not in coarser.verdict
     both = refinement(0.5, 64, 0.03)
     assert both.kinds[0] is Kind.SCHEME
     assert both.kinds[-1] is Kind.ILL_POSED
@@ -146,3 +153,11 @@ def test_bad_input_gets_one_sentence(scene, values, error, sentence):
     with pytest.raises(error) as caught:
         scene(**values)
     assert str(caught.value) == sentence
+
+
+def test_no_time_is_foretold_for_a_mode_that_is_lost_in_the_last_bit():
+    assert diagnose(Toy(0.5), n=64, t_end=2000).t_blow_up == math.inf
+    found = base_state(0.5, n=64)
+    assert found.kind is Kind.HIDDEN
+    assert found.growth > 0
+    assert "too slowly for round-off to be seen by t = 100" in found.verdict

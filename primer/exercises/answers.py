@@ -49,7 +49,7 @@ def check(answer, truth, praise, slips, hint, rtol=0.01):
 
 
 def choose(answer, truth, praise, hints):
-    """``Feedback`` on one of a few texts; ``hints`` maps each of the others to what to think of.
+    """``Feedback`` on one of a few texts, in capitals or not; ``hints`` maps each of the others to what to think of.
 
     Raises
     ------
@@ -59,6 +59,8 @@ def choose(answer, truth, praise, hints):
     options = sorted([truth, *hints])
     if not isinstance(answer, str):
         raise TypeError(f"answer must be one of {', '.join(map(repr, options))}, got {shown(answer)}")
+    told = {option.casefold(): option for option in options}
+    answer = told.get(" ".join(answer.casefold().split()), answer)  # 'Well posed ' is not wrong
     if answer not in options:
         raise ValueError(f"answer must be one of {', '.join(map(repr, options))}, got {shown(answer)}")
     return Feedback(True, praise) if answer == truth else Feedback(False, hints[answer])

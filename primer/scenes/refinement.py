@@ -143,6 +143,7 @@ def _alive(toy, answer, dip):
     ends = [float(answer.runs[i].dist[-1]) for i in alive]
     resting = [i for i, end in zip(alive, ends, strict=True) if abs(end / answer.floor[i] - 1) < _AT_REST]
     off = [i for i in alive if i not in resting]
+    late = [i for i in alive if toy.a > 1 and growth(toy, answer.runs[i].n, answer.runs[i].dt) > 0]
     if resting:
         rest = f"Dist comes to rest at {_listed(f'{answer.runs[i].dist[-1]:.3g}' for i in resting)}"
         rest += f" on {_grids(answer, resting)}, the floor h/sin h - 1 of the scheme"
@@ -150,9 +151,9 @@ def _alive(toy, answer, dip):
             first, last = resting[0], resting[-1]
             order = math.log2(ends[alive.index(first)] / ends[alive.index(last)]) / (last - first)
             rest += f", of order {order:.2f} in h"
-        if len(resting) == 3 and toy.a >= 1 and dip is None:
+        if len(resting) == 3 and toy.a >= 1 and dip is None and not late:
             yield f"Refining helps: {rest}."
-        elif len(resting) == 3:
+        elif len(resting) == 3 and not late:
             hides = "these grids hold no wave that grows enough to be seen, and a fine enough one blows up"
             yield f"Refining seems to help: {rest}, as if all were well. But {hides}."
         elif toy.a < 1:
@@ -162,6 +163,12 @@ def _alive(toy, answer, dip):
     if off:
         far = _listed(f"{answer.runs[i].dist[-1] / answer.floor[i]:.3g}" for i in off)
         yield f"By t = {T_END:g}, {_grids(answer, off)} had not blown up, with Dist {far} times the floor."
+    if late:
+        rate = growth(toy, answer.runs[late[-1]].n, answer.runs[0].dt)
+        yield (
+            f"But dt = {answer.runs[0].dt:.2g} is too large for {_grids(answer, late)}: perturbations of that rest "
+            f"grow, like e^({rate:.3g} t) on N = {answer.runs[late[-1]].n}, unseen by t = {T_END:g}."
+        )
 
 
 def _lost(answer):
