@@ -37,7 +37,7 @@ def check_03_1(answer: float, seed: int = 0) -> Feedback:
 
 
 def _second(seed):
-    return variant("03_2", seed, a=(0.5, 0.2, 0.7, 0.6, 0.4), eps=(0.02, 0.01, 0.005, 0.04))
+    return variant("03_2", seed, a=(0.4, 0.2, 0.7, 0.6, 0.3), eps=(0.02, 0.01, 0.005, 0.04))
 
 
 def ask_03_2(seed: int = 0) -> str:

@@ -72,7 +72,10 @@ def pde(pde: str = TOY, at: str = "u=-0.5 v_xx=0.3 eps=0.01", order: str = "full
     try:
         known = _known(pde, at, order)
     except PDEError as error:
-        raise ValueError(f"pde or at cannot be used: {_one_line(error)}") from None
+        problem = _one_line(error)
+        if "has a value but does not occur" in problem:
+            raise ValueError(f"{problem}: take it out of at, the base state") from None
+        raise ValueError(f"pde or at cannot be used: {problem}") from None
     grid_xi = np.geomspace(XI[0], n / 2, 121 if known.symbol.dim == 1 else 41)
     grid_rate, finer = (_growth(known.symbol, grid_xi * m / n, known.found, m) for m in (n, 2 * n))
     text = f"{_judged(known.found, pde, order)} {_seen(known.found, n, np.nanmax(grid_rate), np.nanmax(finer))}"
