@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pytest
 
+import primer.study.diagnosis as diagnosis
 from primer import Seed, Stop, Toy, diagnose, ftcs
 from primer.schemes.discrete import discrete_steady
 from primer.schemes.grid import Grid
@@ -126,6 +127,16 @@ def test_fewer_digits_blow_up_sooner():
     times += [diagnose(Toy(0.5), digits=d).t_blow_up for d in (30, 60, 400)]
     assert np.all(np.diff(times) > 0)
     assert times[4] - times[3] == pytest.approx(30 * math.log(10) / diagnose(Toy(0.5)).growth, rel=0.02)
+
+
+def test_where_u_is_negative_throughout_the_small_step_is_that_of_the_stiffest_mode(monkeypatch):
+    """At u = 0 the limit is h^2, four times (pi/n)^2, whatever eps."""
+    steps = []
+    monkeypatch.setattr(diagnosis, "forecast", lambda toy, n, dt, *rest, **options: steps.append(dt))
+    for eps in (0.01, 5.0):
+        diagnosis._with_a_small_step(Toy(-2.0, eps), 40, 1e-2, 1.0, None, 1e-16)
+    assert steps == pytest.approx(2 * [0.05 * (math.pi / 40) ** 2])
+    assert diagnosis._with_a_small_step(Toy(-2.0), 40, steps[0], 1.0, None, 1e-16) is None
 
 
 def test_a_run_without_time_is_foreseen_too():

@@ -32,7 +32,8 @@ from primer.granular import (
 )
 from primer.granular.dispersion import Delta, growth_rate
 from primer.granular.fastest import fastest
-from primer.granular.limits import least_Delta, quotient_maximum
+from primer.granular.limits import leading, least_Delta, quotient_maximum
+from primer.granular.linearisation import Coefficients
 from primer.granular.violations import cases, table
 
 BEADS, PACKING = GLASS_BEADS.friction, EXAMPLE_COMPACTION
@@ -134,6 +135,14 @@ def test_cssm_at_its_critical_state_is_ill_posed_in_a_direction_that_drifts():
     assert np.log10(x[2] / x[1]) / 2 == pytest.approx(-2 / 3, abs=1e-4)
     scan = growth_rate(coefficients(law, state), 1e8, np.cos(np.linspace(0, np.pi, 361)))
     assert scan.max() < 0.01 * rate[2]  # half-degree steps see nothing of it
+
+
+def test_what_is_left_of_a_cancelling_sum_counts_as_zero_beside_its_terms():
+    """A = 0 and B = C: Delta = t (x + B)^2. N(-B) is of the order of Y_phi: a trace of it leaves the drifting case."""
+    one = np.ones(())
+    for trace, exponent in ((0.0, 2 / 3), (1e-14, 2 / 3), (1e-6, 1.0), (-1e-6, 0.0)):
+        c = Coefficients(0 * one, 0.999 * one, 0.999 * one, one, one, one, trace * one, one, one, one, one)
+        assert leading(c).exponent == exponent
 
 
 def test_cssm_contracting_is_well_posed_with_a_bound_that_diverges():

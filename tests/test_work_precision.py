@@ -63,6 +63,23 @@ def test_cost_is_scaled_to_the_whole_march(monkeypatch):
     assert all(math.isnan(p.error) for p in points)
 
 
+def test_cost_is_measured_by_default_to_time_5_on_50_to_3200_points_over_a_twentieth_of_a_second(monkeypatch):
+    """Stretches grow fourfold until one takes at least half of that."""
+    now, stretches = [0.0], {}
+    monkeypatch.setattr(cost.time, "perf_counter", lambda: now[0])
+
+    def march(toy, n, t_end):
+        now[0] += 1e-3 * n**2 * t_end
+        stretches.setdefault(n, []).append(t_end)
+        return np.zeros(n), np.zeros((2, n)), 0.1
+
+    points = cost.cost_against_n(methods=[Method("by points", march, (8,))])
+    assert [p.n for p in points] == [50 * 2**k for k in range(7)]
+    assert [p.seconds for p in points] == pytest.approx([5e-3 * p.n**2 for p in points])
+    for n, spans in stretches.items():
+        assert 0.025 < 1e-3 * n**2 * spans[-1] <= 0.1
+
+
 @pytest.mark.slow
 def test_a_blow_up_is_an_infinite_error():
     def blown_up(toy, knob, t_end):
