@@ -9,6 +9,7 @@ import primer.study.diagnosis as diagnosis
 from primer import Seed, Stop, Toy, diagnose, ftcs
 from primer.schemes.discrete import discrete_steady
 from primer.schemes.grid import Grid
+from primer.schemes.record import plan
 from primer.study.catalogue import HARD_CASES
 from primer.study.diagnosis import Kind
 from primer.study.leap import Half
@@ -75,6 +76,42 @@ def test_a_blow_up_of_the_scheme_is_cured_by_a_smaller_step_and_no_other():
 def test_the_reason_says_why_the_equations_are_well_posed():
     assert "well posed, as the equations have no second derivative" in diagnose(Toy(1.5, 0.0), 40, 1e-3, 5.0).reason
     assert "well posed, as u stays positive" in diagnose(Toy(1.5), 40, 1e-3, 5.0).reason
+
+
+@pytest.mark.parametrize(("n", "t_end"), [(30, 100.0), (100, 1.0)])
+def test_the_reason_of_what_is_hidden_says_whether_anything_grows(n, t_end):
+    """On the coarse grid nothing does; on the fine one it does, but not in so short a time."""
+    found = diagnose(Toy(0.5), n, 1e-3, t_end)
+    assert found.kind is Kind.HIDDEN
+    assert (found.growth > 0) == (n == 100)
+    assert ("nothing grows" in found.reason) == (n == 30)
+    assert ("perturbations grow only by" in found.reason) == (n == 100)
+
+
+def test_hard_cases_can_be_marched():
+    for case in HARD_CASES:
+        asked = plan(case.n, case.dt, case.t_end, None, (), case.seed, 1e3, case.dtype, None)
+        assert 0 < asked.dt <= 1e-3
+        assert asked.steps * asked.dt == pytest.approx(case.t_end)
+
+
+def test_hard_cases_that_are_compared_differ_only_in_what_is_said():
+    cases = {case.name: case for case in HARD_CASES}
+    paper = [cases[name] for name in ("62 points", "63 points", "64 points", "65 points", "66 points")]
+    for others in (
+        [*paper, cases["64 points, seeded"]],
+        [cases["a = 1.05, coarse"], cases["a = 1.05, fine"]],
+        [cases["a = 1.15, coarse"], cases["a = 1.15, fine"]],
+        [cases["eps = 0, 300 points"], cases["eps = 0, 400 points"]],
+        [cases["odd n"], cases["even n"]],
+    ):
+        assert len({(case.toy, case.t_end) for case in others}) == 1
+
+
+@pytest.mark.parametrize("name", ["65 points", "66 points"])
+def test_one_point_more_outruns_the_last_bit(name):
+    (case,) = (case for case in HARD_CASES if case.name == name)
+    assert case.diagnose().kind is case.kind
 
 
 @pytest.mark.slow

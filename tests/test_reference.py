@@ -158,6 +158,12 @@ def test_the_search_for_the_horizon_ends_where_it_recedes_or_no_judge_is_left(mo
     assert far(Toy(0.5), 1e-10, 49.0) == (2, 49.0)
 
 
+@pytest.mark.parametrize(("tol", "n"), [(1e-6, 8), (1e-7, 8), (1e-8, 16), (1e-12, 16)])
+def test_the_first_points_tried_go_with_the_tolerance(tol, n):
+    """At eps = 0 one wave is all there is, and the fewest points tried hold it."""
+    assert reference(Toy(1.5, 0), 1.0, tol).x.size == n
+
+
 def test_an_answer_is_shown_without_its_arrays():
     answer = reference(Toy(1.5), 1.0)
     assert repr(answer) == f"Reference(toy={answer.toy!r}, tol=1e-10, horizon=1.0)"

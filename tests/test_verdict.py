@@ -157,6 +157,12 @@ def test_a_plateau_is_a_peak_and_a_step_on_a_slope_is_none():
     np.testing.assert_array_equal(supremum._peaks(around), [[5, 5, low, low]])
 
 
+def test_a_maximum_beside_a_rate_of_exactly_one_is_followed():
+    """a xi^2 - b xi^4 with a - b = 1, which is 1 at xi = 1, a place of the scan; its largest value is a^2/(4 b)."""
+    a, b = 2.03125, 1.03125
+    assert verdict(f"u_t = -{a}*u_xx - {b}*u_xxxx").bound == pytest.approx(a**2 / (4 * b), rel=1e-13)
+
+
 def test_kelvin_helmholtz():
     """A vortex sheet's interface in its two potentials, reduced: growth |xi| U/2 without, bounded with surface tension.
 
