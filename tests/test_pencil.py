@@ -110,12 +110,12 @@ def test_zero_and_multiple_eigenvalues():
     np.testing.assert_allclose(jordan.eigenvalues(3.0), [-9, -9], rtol=1e-7)  # a double root: half the digits
 
 
-def test_a_zero_found_twice_is_sought_again():
-    """Two starting values that ran into one zero: a small eigenvalue beside it is found, a double zero stays."""
+def test_an_eigenvalue_found_twice_is_sought_again():
+    """Two starting values that ran into one: the eigenvalue that was missed is found, a double zero stays."""
     E = np.eye(3, dtype=complex)[None]
-    for eigenvalues in ([0, 1e-5, 1], [0, 0, 1]):
+    for eigenvalues, start in (([0, 1e-5, 1], [0, 0, 1]), ([0, 0, 1], [0, 0, 1]), ([1, 2, 3], [2, 2, 1])):
         S = -np.diag(eigenvalues).astype(complex)[None]
-        found = eigen._told_apart(S, E, np.array([[0, 0, 1]], dtype=complex))
+        found = eigen._told_apart(S, E, np.array([start], dtype=complex))
         np.testing.assert_allclose(np.sort(found[0].real), eigenvalues, rtol=1e-12, atol=0)
 
 
