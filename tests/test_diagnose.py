@@ -5,9 +5,11 @@ import math
 import numpy as np
 import pytest
 
+import primer.study.diagnosis as diagnosis
 from primer import Seed, Stop, Toy, diagnose, ftcs
 from primer.schemes.discrete import discrete_steady
 from primer.schemes.grid import Grid
+from primer.schemes.record import plan
 from primer.study.catalogue import HARD_CASES
 from primer.study.diagnosis import Kind
 from primer.study.leap import Half
@@ -76,6 +78,42 @@ def test_the_reason_says_why_the_equations_are_well_posed():
     assert "well posed, as u stays positive" in diagnose(Toy(1.5), 40, 1e-3, 5.0).reason
 
 
+@pytest.mark.parametrize(("n", "t_end"), [(30, 100.0), (100, 1.0)])
+def test_the_reason_of_what_is_hidden_says_whether_anything_grows(n, t_end):
+    """On the coarse grid nothing does; on the fine one it does, but not in so short a time."""
+    found = diagnose(Toy(0.5), n, 1e-3, t_end)
+    assert found.kind is Kind.HIDDEN
+    assert (found.growth > 0) == (n == 100)
+    assert ("nothing grows" in found.reason) == (n == 30)
+    assert ("perturbations grow only by" in found.reason) == (n == 100)
+
+
+def test_hard_cases_can_be_marched():
+    for case in HARD_CASES:
+        asked = plan(case.n, case.dt, case.t_end, None, (), case.seed, 1e3, case.dtype, None)
+        assert 0 < asked.dt <= 1e-3
+        assert asked.steps * asked.dt == pytest.approx(case.t_end)
+
+
+def test_hard_cases_that_are_compared_differ_only_in_what_is_said():
+    cases = {case.name: case for case in HARD_CASES}
+    paper = [cases[name] for name in ("62 points", "63 points", "64 points", "65 points", "66 points")]
+    for others in (
+        [*paper, cases["64 points, seeded"]],
+        [cases["a = 1.05, coarse"], cases["a = 1.05, fine"]],
+        [cases["a = 1.15, coarse"], cases["a = 1.15, fine"]],
+        [cases["eps = 0, 300 points"], cases["eps = 0, 400 points"]],
+        [cases["odd n"], cases["even n"]],
+    ):
+        assert len({(case.toy, case.t_end) for case in others}) == 1
+
+
+@pytest.mark.parametrize("name", ["65 points", "66 points"])
+def test_one_point_more_outruns_the_last_bit(name):
+    (case,) = (case for case in HARD_CASES if case.name == name)
+    assert case.diagnose().kind is case.kind
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("case", HARD_CASES, ids=lambda case: case.name)
 def test_hard_cases_end_as_they_must(case):
@@ -126,6 +164,16 @@ def test_fewer_digits_blow_up_sooner():
     times += [diagnose(Toy(0.5), digits=d).t_blow_up for d in (30, 60, 400)]
     assert np.all(np.diff(times) > 0)
     assert times[4] - times[3] == pytest.approx(30 * math.log(10) / diagnose(Toy(0.5)).growth, rel=0.02)
+
+
+def test_where_u_is_negative_throughout_the_small_step_is_that_of_the_stiffest_mode(monkeypatch):
+    """At u = 0 the limit is h^2, four times (pi/n)^2, whatever eps."""
+    steps = []
+    monkeypatch.setattr(diagnosis, "forecast", lambda toy, n, dt, *rest, **options: steps.append(dt))
+    for eps in (0.01, 5.0):
+        diagnosis._with_a_small_step(Toy(-2.0, eps), 40, 1e-2, 1.0, None, 1e-16)
+    assert steps == pytest.approx(2 * [0.05 * (math.pi / 40) ** 2])
+    assert diagnosis._with_a_small_step(Toy(-2.0), 40, steps[0], 1.0, None, 1e-16) is None
 
 
 def test_a_run_without_time_is_foreseen_too():

@@ -17,6 +17,7 @@ from primer import BackwardHeat, Run, Seed, Stop, Toy, ftcs
 from primer.compiled import _say, compiled
 from primer.schemes.discrete import dist_floor
 from primer.schemes.grid import Grid
+from primer.schemes.record import plan
 
 
 @pytest.fixture(params=["compiled", "interpreted"])
@@ -306,6 +307,17 @@ def test_hopeless_parameters_still_end_in_an_outcome(path, dtype):
         run = ftcs(problem, 64, 10.0, 1000.0, dtype=dtype)
         assert run.stop is Stop.BLEW_UP
         assert run.t_stop <= 200
+
+
+def test_a_clock_counts_whole_steps_up_to_two_to_the_53():
+    """The last whole number before which doubles count every one."""
+
+    def steps(t_end):
+        return plan(4, 1.0, t_end, None, (), None, 1e3, np.float64, None).steps
+
+    assert steps(2.0**53 - 1) == 2**53 - 1
+    with pytest.raises(ValueError, match="dt must be more than"):
+        steps(2.0**53)
 
 
 @pytest.mark.parametrize(

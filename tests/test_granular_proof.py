@@ -92,6 +92,7 @@ def test_Lambda_is_minus_the_eigenvalues_of_M_plus_N():
     c = coefficients(CIDR(BEADS, PACKING), STATE)
     exact = np.linalg.eigvalsh(M(c, XI) + N(c, XI)) / -c.density
     np.testing.assert_allclose(proof.Lambda(c, X), exact, rtol=1e-10)
+    assert np.isrealobj(proof.Lambda(c, X))
     for x, xi in zip(X[::20], XI.T[::20], strict=True):
         nu = np.linalg.det(reduced(c, xi)).real  # det P
         L = proof.Lambda(c, x)

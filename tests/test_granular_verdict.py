@@ -30,9 +30,11 @@ from primer.granular import (
     neutral_inertial_numbers,
     verdict,
 )
-from primer.granular.dispersion import Delta, growth_rate
+from primer.granular.dispersion import Delta, at, dispersion, growth_rate
 from primer.granular.fastest import fastest
-from primer.granular.limits import least_Delta, quotient_maximum
+from primer.granular.limits import leading, least_Delta, quotient_maximum
+from primer.granular.linearisation import Coefficients
+from primer.granular.posedness import _with_long_waves
 from primer.granular.violations import cases, table
 
 BEADS, PACKING = GLASS_BEADS.friction, EXAMPLE_COMPACTION
@@ -134,6 +136,24 @@ def test_cssm_at_its_critical_state_is_ill_posed_in_a_direction_that_drifts():
     assert np.log10(x[2] / x[1]) / 2 == pytest.approx(-2 / 3, abs=1e-4)
     scan = growth_rate(coefficients(law, state), 1e8, np.cos(np.linspace(0, np.pi, 361)))
     assert scan.max() < 0.01 * rate[2]  # half-degree steps see nothing of it
+
+
+def test_what_is_left_of_a_cancelling_sum_counts_as_zero_beside_its_terms():
+    """A = 0 and B = C: Delta = t (x + B)^2. N(-B) is of the order of Y_phi: a trace of it leaves the drifting case."""
+    one = np.ones(())
+    for trace, exponent in ((0.0, 2 / 3), (1e-14, 2 / 3), (1e-6, 1.0), (-1e-6, 0.0)):
+        c = Coefficients(0 * one, 0.999 * one, 0.999 * one, one, one, one, trace * one, one, one, one, one)
+        assert leading(c).exponent == exponent
+
+
+def test_a_dilatancy_that_phi_does_not_change_has_a_growth_at_infinity_too():
+    """f_phi = Y_phi = 0 leaves N = 0 and, at k = 1, the leading growth: T lam + Delta k^2/R = 0 where Gamma = 0."""
+    one, none = np.ones(()), np.zeros(())
+    c = Coefficients(0.1 * one, 0.5 * one, -0.5 * one, none, one, one, none, none, one, 0.6 * one, one)
+    x = np.linspace(-1, 1, 200_001)
+    found = leading(c)
+    assert found.exponent == 2
+    assert found.coefficient == pytest.approx((-Delta(c, x) / 0.6 / at(dispersion(c).T, x)).max(), rel=1e-8)
 
 
 def test_cssm_contracting_is_well_posed_with_a_bound_that_diverges():
@@ -311,6 +331,16 @@ def test_friction_too_steep_grows_without_bound_where_the_determinant_vanishes()
     assert x**2 - y**2 == pytest.approx(-1 / float(coefficients(law, state).B), rel=1e-9)
 
 
+def test_long_waves_decay_as_slowly_as_one_likes():
+    """lambda ~ -|xi|^2 as xi -> 0, so that no bound on all waves is below zero, whatever the short ones do."""
+    one = np.ones(())
+    numbers = (0.87, -0.139, -0.139, 0.13, 0.564, 0.564, -0.619, 6.58, 1.0, 0.6, 1.0)
+    c = Coefficients(*(v * one for v in numbers))
+    limit = leading(c).limit
+    assert limit < -1
+    assert -1e-6 < _with_long_waves(c, limit) <= 0
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("a", "da", "b", "db", "p", "phi", "I"),
@@ -378,6 +408,15 @@ def test_the_theorem_on_100_000_random_states():
     state = BaseState(10 ** rng.uniform(-3, 3, n), rng.uniform(0.1, 0.9, n), 10 ** rng.uniform(-6, 3, n))
     assert (growth_limit(Coulomb(0.3), state) == np.inf).all()
     assert (fastest(coefficients(Coulomb(0.3), state), 1.0)[0] > 0).all()
+
+
+def test_the_slopes_of_the_violations_are_those_of_their_laws():
+    for row in cases():
+        p, phi, I = row.state.p, row.state.phi, row.state.I
+        h = 1e-5 * I
+        for value, slope in ((row.law.Y, row.law.Y_I), (row.law.f, row.law.f_I)):
+            difference = (value(p, phi, I + h) - value(p, phi, I - h)) / (2 * h)
+            assert slope(p, phi, I) == pytest.approx(difference, rel=1e-6, abs=1e-8), row.name
 
 
 @pytest.mark.slow

@@ -1,6 +1,7 @@
 """Guards the house: lazy imports, floors that only import downwards, public names that exist, examples that run."""
 
 import ast
+import inspect
 import re
 import shlex
 import subprocess
@@ -9,6 +10,7 @@ from dataclasses import is_dataclass
 from importlib import import_module
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import primer
@@ -82,6 +84,24 @@ def test_dataclasses_are_frozen():
         seen |= {x for x in vars(import_module(name)).values() if isinstance(x, type) and is_dataclass(x)}
     assert len(seen) > 40
     assert [x.__name__ for x in seen if not x.__dataclass_params__.frozen] == []
+
+
+def test_what_is_left_out_is_the_same_everywhere():
+    """The paper's runs to t = 100 on 100 points with dt = 1e-3 and eps = 0.01; 5 for what is timed."""
+    usual = {
+        "n": 100, "dt": 1e-3, "t_end": 100.0, "eps": 0.01, "blow_up_at": 1e3, "dtype": np.float64, "order": "full",
+        "snapshots": (), "progress": True, "rho": 1.0, "d": 1.0, "I": 0.1,
+    }  # fmt: skip
+    timed = ("work_precision", "cost_against_n")
+    found = 0
+    for module in (primer, import_module("primer.granular")):
+        for name in set(module.__all__) - {"Run"}:
+            if callable(thing := getattr(module, name)) and not (isinstance(thing, type) and issubclass(thing, str)):
+                for key, parameter in inspect.signature(thing).parameters.items():
+                    if key in usual and parameter.default not in (None, inspect.Parameter.empty):
+                        found += 1
+                        assert parameter.default == (5.0 if key == "t_end" and name in timed else usual[key]), name
+    assert found > 30
 
 
 def test_unknown_names_are_refused():

@@ -9,6 +9,7 @@ import pytest
 import sympy
 
 import primer.analysis.directions as directions
+import primer.analysis.eigen as eigen
 from primer import Pencil, growth, max_growth
 
 
@@ -107,6 +108,15 @@ def test_zero_and_multiple_eigenvalues():
     np.testing.assert_allclose(twice.eigenvalues(3.0), [-9, -9, -81])
     jordan = Pencil(lambda xi: [[xi**2, xi], [0, xi**2]], np.eye(2))
     np.testing.assert_allclose(jordan.eigenvalues(3.0), [-9, -9], rtol=1e-7)  # a double root: half the digits
+
+
+def test_an_eigenvalue_found_twice_is_sought_again():
+    """Two starting values that ran into one: the eigenvalue that was missed is found, a double zero stays."""
+    E = np.eye(3, dtype=complex)[None]
+    for eigenvalues, start in (([0, 1e-5, 1], [0, 0, 1]), ([0, 0, 1], [0, 0, 1]), ([1, 2, 3], [2, 2, 1])):
+        S = -np.diag(eigenvalues).astype(complex)[None]
+        found = eigen._told_apart(S, E, np.array([start], dtype=complex))
+        np.testing.assert_allclose(np.sort(found[0].real), eigenvalues, rtol=1e-12, atol=0)
 
 
 def test_best_direction_of_an_anisotropic_diffusion():

@@ -76,6 +76,12 @@ def test_toy_symbol_is_the_derivative_of_the_right_hand_side(u, v_xx):
     np.testing.assert_allclose(problem.symbol(xi, u, v_xx), S, rtol=1e-14)
 
 
+def test_wavenumbers_go_up_to_the_last_that_doubles_tell_apart():
+    assert BackwardHeat(2**53).xi == 2**53
+    with pytest.raises(ValueError, match=r"xi must be an integer <= 2\^53"):
+        BackwardHeat(2**53 + 1)
+
+
 @pytest.mark.parametrize("x", [[0, 1, 2], np.arange(3), range(3), 2])
 def test_whole_numbers_are_as_good_as_others(x):
     for problem in (Toy(1.5, 0), BackwardHeat(2, 0.5)):

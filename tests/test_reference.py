@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from taylor import PI, REAL, toy_by_taylor
 
+import primer.schemes.reference as module
 from primer import FOURIER, PastHorizon, Reference, Toy, reference
 from primer.schemes import lines
 from primer.schemes.fourier import interpolate
@@ -145,6 +146,27 @@ def test_the_horizon_recedes_with_tolerance_and_approaches_with_ill_posedness():
     assert horizon(0.5, 0.1, 1e-10) < horizon(0.5, 0.01, 1e-10) < horizon(0.9, 0.01, 1e-10)
     assert horizon(-1e4, 1, 1e-8) < 1e-3
     assert reference(Toy(1.5, 0.01), [2, 7]).horizon == 7  # well posed: as far as it went
+
+
+def test_the_search_for_the_horizon_ends_where_it_recedes_or_no_judge_is_left(monkeypatch):
+    """A rung is judged by the next one, so that the last of them judges only."""
+    last, far = len(module._POINTS) - 1, module._farthest.__wrapped__
+    monkeypatch.setattr(module, "_holds", lambda toy, tol, until, rung: float(rung))
+    assert far(Toy(0.5), 1e-10, 100.0) == (last - 1, last - 1.0)
+    monkeypatch.setattr(module, "_holds", lambda toy, tol, until, rung: -abs(rung - 3.0) + 50)
+    assert far(Toy(0.5), 1e-10, 100.0) == (3, 50.0)
+    assert far(Toy(0.5), 1e-10, 49.0) == (2, 49.0)
+
+
+@pytest.mark.parametrize(("tol", "n"), [(1e-6, 8), (1e-7, 8), (1e-8, 16), (1e-12, 16)])
+def test_the_first_points_tried_go_with_the_tolerance(tol, n):
+    """At eps = 0 one wave is all there is, and the fewest points tried hold it."""
+    assert reference(Toy(1.5, 0), 1.0, tol).x.size == n
+
+
+def test_an_answer_is_shown_without_its_arrays():
+    answer = reference(Toy(1.5), 1.0)
+    assert repr(answer) == f"Reference(toy={answer.toy!r}, tol=1e-10, horizon=1.0)"
 
 
 def test_a_refusal_survives_pickling():

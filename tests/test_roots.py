@@ -58,6 +58,7 @@ def test_common_factors(shared, one, two):
         (z**2 + 1, z**2 + s * z + 1 + sp.I * s),
         ((z - s) * (z + 1), (z - s) * (z - 2)),  # a common root for every s: the resultant vanishes
         (10**30 * (z**2 + 1), 10**30 * (z**2 + s * z + 1 + sp.I * s)),
+        (sp.Integer(2) ** -200 * (z**2 + 1), sp.Integer(2) ** -200 * (z**2 + s * z + 2)),
         (sp.I * z**4 + s * z, 3 * z**3 - s**3),
     ],
 )

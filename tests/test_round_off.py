@@ -92,3 +92,9 @@ def test_mirror_symmetric_order_is_the_same_scheme():
 def test_too_few_blow_ups_for_a_line():
     with pytest.raises(ValueError, match="amplitudes must make at least two runs blow up"):
         seed_ladder(PAPER, 30, 1e-2, 5.0, [1e-3, 1e-6])
+
+
+def test_a_ladder_may_begin_at_the_mean():
+    """Mode 0 is a mode: it is marched, and only then found not to blow up."""
+    with pytest.raises(ValueError, match="at least two runs blow up"):
+        seed_ladder(Toy(1.5), 16, 1e-2, 0.1, [1e-8, 1e-6], mode=0)

@@ -13,7 +13,7 @@ from primer.schemes.grid import Grid
 from primer.study import spectrum
 from primer.study.spectrum import Parity, depth, fastest, growth, jacobian
 from primer.study.stability import frozen_dt
-from primer.study.threshold import unstable
+from primer.study.threshold import _sawtooth_ratio, unstable
 
 
 def dense_rates(toy, n):
@@ -202,3 +202,11 @@ def test_bad_input_gets_one_sentence():
         grid_threshold(0.5, -1)
     with pytest.raises(ValueError, match="must be more than about"):
         grid_threshold(0.5, 1e-14)
+
+
+@pytest.mark.parametrize("a", [-3.0, 0.0, 0.5, 0.9])
+def test_where_the_sawtooth_begins_to_grow(a):
+    """The equation of which the search takes the root: 2 (r - 1)^3 = r/(2 (1 - a))."""
+    r = _sawtooth_ratio(a)
+    assert r > 1
+    assert 2 * (r - 1) ** 3 == pytest.approx(r / (2 * (1 - a)), rel=1e-12)

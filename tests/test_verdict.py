@@ -13,8 +13,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from test_pencil import critical_state, granular, navier_stokes
 
+import primer.analysis.supremum as supremum
 from primer import Pencil, Verdict, growth_rates, max_growth, verdict
+from primer.analysis.laws import exact_symbol
 from primer.analysis.text import PDEError
+from primer.analysis.verdict import _along_line
 
 ILL, WELL = "ill-posed", "well-posed"
 TOY = "u_t = v_x; v_t = eps*u*v_xx + u_x - v - sin(x)"
@@ -116,6 +119,48 @@ def test_turing_bound():
     trace, det = a - d - (1 + D) * q, (a - q) * (-d - D * q) + b * c
     best = np.max((trace + np.sqrt(np.maximum(trace**2 - 4 * det, 0))) / 2)
     assert verdict(TURING, a=a, b=b, c=c, d=d, D=D).bound == pytest.approx(best, rel=1e-9)
+
+
+@pytest.mark.parametrize(("text", "k"), [("u_t = u + u_xx", 0), ("u_t = -u_xx - u_xxxx", 0.5**0.5)])
+def test_the_supremum_says_at_which_wavenumber(text, k):
+    """Re lambda = 1 - xi^2 is largest at 0; xi^2 - xi^4 at xi^2 = 1/2. Flat tops keep half the digits of the place."""
+    symbol = exact_symbol(text)
+    _, where = supremum.supremum(symbol, _along_line(symbol, True)[0], real=True)
+    assert where == pytest.approx(k, rel=1e-7)
+
+
+def test_the_best_of_many_maxima_is_found_and_only_some_are_followed(monkeypatch):
+    """Six bumps h (2 q - q^2), q = (xi/K)^2, each of height h at xi = K and -K: twelve maxima."""
+    heights = 1 + 0.01 * np.array([2, 0, 5, 1, 4, 3])
+    text = "; ".join(
+        f"w{n}_t = -{h}*(2*10^(-{2 * n})*w{n}_xx + 10^(-{4 * n})*w{n}_xxxx)" for n, h in enumerate(heights)
+    )
+
+    def closed_form(symbol, xi):
+        q = (float(np.squeeze(xi)) / 10.0 ** np.arange(6)) ** 2
+        return float(np.max(heights * (2 * q - q**2)))
+
+    monkeypatch.setattr(supremum, "exact_growth", closed_form)  # quicker than the roots of a determinant
+    followed, follow = [], supremum._followed
+    monkeypatch.setattr(supremum, "_followed", lambda *a: followed.append(a) or follow(*a))
+    symbol = exact_symbol(text)
+    best, where = supremum.supremum(symbol, _along_line(symbol, False)[0], real=False)
+    assert (best, where) == (pytest.approx(1.05, rel=1e-12), pytest.approx(10.0 ** np.argmax(heights), rel=1e-6))
+    assert len(followed) == supremum.PLACES
+
+
+def test_a_plateau_is_a_peak_and_a_step_on_a_slope_is_none():
+    low = -np.inf
+    rate = np.array([[0.0, 2.0, 2.0, 1.0, 1.0, 3.0]]).T
+    np.testing.assert_array_equal(supremum._peaks(rate), np.array([[low, 2, 2, low, low, 3]]).T)
+    around = np.array([[5.0, 5.0, 4.0, 3.0]])  # angles go round
+    np.testing.assert_array_equal(supremum._peaks(around), [[5, 5, low, low]])
+
+
+def test_a_maximum_beside_a_rate_of_exactly_one_is_followed():
+    """a xi^2 - b xi^4 with a - b = 1, which is 1 at xi = 1, a place of the scan; its largest value is a^2/(4 b)."""
+    a, b = 2.03125, 1.03125
+    assert verdict(f"u_t = -{a}*u_xx - {b}*u_xxxx").bound == pytest.approx(a**2 / (4 * b), rel=1e-13)
 
 
 def test_kelvin_helmholtz():

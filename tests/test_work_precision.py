@@ -1,12 +1,15 @@
 """Guards the work-precision study: all methods solve the same problem, the front is one, the table is the data's."""
 
 import math
+import sys
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 from primer import Toy
+from primer.study import contestants as contestants_module
 from primer.study import cost, measured
 from primer.study.contestants import Method, contestants
 from primer.study.cost import Point, WorkPrecision, pareto, work_precision
@@ -61,6 +64,53 @@ def test_cost_is_scaled_to_the_whole_march(monkeypatch):
     assert [(p.method, p.n) for p in points] == [("by points", 50), ("by points", 200)]
     assert [p.seconds for p in points] == pytest.approx([0.1, 0.4])
     assert all(math.isnan(p.error) for p in points)
+
+
+def test_cost_is_measured_by_default_to_time_5_on_50_to_3200_points_over_a_twentieth_of_a_second(monkeypatch):
+    """Stretches grow fourfold until one takes at least half of that."""
+    now, stretches = [0.0], {}
+    monkeypatch.setattr(cost.time, "perf_counter", lambda: now[0])
+
+    def march(toy, n, t_end):
+        now[0] += 1e-3 * n**2 * t_end
+        stretches.setdefault(n, []).append(t_end)
+        return np.zeros(n), np.zeros((2, n)), 0.1
+
+    points = cost.cost_against_n(methods=[Method("by points", march, (8,))])
+    assert [p.n for p in points] == [50 * 2**k for k in range(7)]
+    assert [p.seconds for p in points] == pytest.approx([5e-3 * p.n**2 for p in points])
+    for n, spans in stretches.items():
+        assert 0.025 < 1e-3 * n**2 * spans[-1] <= 0.1
+
+
+def test_py_pde_is_given_the_steps_of_the_papers_scheme(monkeypatch):
+    """A package of ours under its name says what it is asked for."""
+    asked = {}
+
+    class PDE:
+        def __init__(self, equations):
+            asked.update(equations)
+
+        def solve(self, state, t_range, dt, tracker):
+            asked.update(t_range=t_range, dt=dt)
+            return SimpleNamespace(data=np.zeros((2, 8)))
+
+    def grid(bounds, n, periodic):
+        return SimpleNamespace(axes_coords=[np.linspace(*bounds[0], n + 1)[:-1]])
+
+    def field(grid, value):
+        return value
+
+    field.from_expression = field
+    pde = SimpleNamespace(CartesianGrid=grid, ScalarField=field, PDE=PDE, FieldCollection=list)
+    monkeypatch.setitem(sys.modules, "pde", pde)
+    x, fields, dt = contestants_module._py_pde(Toy(1.5, 0.02), 8, 0.5)
+    _, _, paper = contestants_module._ftcs(Toy(1.5, 0.02), 8, 0.5)
+    assert (dt, asked["dt"], asked["t_range"]) == (paper, paper, 0.5)
+    assert paper <= (math.pi / 8) ** 2
+    assert asked["v"] == "0.02 * u * laplace(v) + d_dx(u) - v - sin(x)"
+    assert x.shape == (8,)
+    assert fields.shape == (2, 8)
 
 
 @pytest.mark.slow

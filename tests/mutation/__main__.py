@@ -3,10 +3,14 @@
     python tests/mutation map [tests]              which test runs which line, and for how long: all, or these anew
     python tests/mutation run --sample 60 --seed 1 a random sample of so many mutants from each folder
     python tests/mutation score                    the share caught by folder, its 95 % interval, and the survivors
+    python tests/mutation check --sample 2         the tests of so many mutants, but nothing is changed: none may fail
 
 A mutant is never written to disk: each is a fork of a process that has imported the libraries but not ``primer``, and
 an import hook hands it the changed module. It meets the tests that run the changed line, quickest first, then the
 others that run its file, until one fails or their usual times add up to ``--cap`` seconds.
+
+Survivors listed in harmless.txt, with the reason, change nothing that a test could see. The mutation score is the share
+caught of all others. An entry holds until its file is edited, which renumbers the mutants.
 """
 
 import argparse
@@ -71,6 +75,8 @@ def run(known, out, chosen):
             every = list(mutants(folder))
             sample = random.Random(f"{chosen.seed} {folder}").sample(every, min(chosen.sample, len(every)))
             todo += [mutant for mutant in sample if mutant[:2] not in done]
+        if chosen.action == "check":
+            todo = [(file, -1, *rest) for file, _, *rest in todo]
         random.Random(chosen.seed).shuffle(todo)
     running = {}
     for mutant in todo + [None] * chosen.jobs:
@@ -88,31 +94,52 @@ def run(known, out, chosen):
 
 def share(k, n):
     """k of n, with Wilson's 95 % interval."""
+    if n == 0:
+        return "none"
     z = 1.96
     middle, half = (k + z * z / 2) / (n + z * z), z * math.sqrt(k * (n - k) / n + z * z / 4) / (n + z * z)
     return f"{k}/{n} = {k / n:.1%} [{middle - half:.1%}, {middle + half:.1%}]"
+
+
+def harmless(result):
+    """Whether a survivor is one of those that change nothing."""
+    file, number, _, _, what = result["mutant"]
+    listed = (ROOT / "tests/mutation/harmless.txt").read_text("utf-8").splitlines()
+    sought = f"{file}  number {number}  {what.splitlines()[0]}"
+    return result["how"] == "survives" and sought in (line.split("  # ")[0] for line in listed)
 
 
 def score(out):
     by_folder = defaultdict(list)
     for result in map(json.loads, out.open()):
         by_folder[result["mutant"][0].split("/")[1]].append(result)
-    for folder, results in sorted(by_folder.items()):
-        print(f"{folder:9}", share(sum(r["how"] != "survives" for r in results), len(results)))
+    counts = {folder: sum(1 for _ in mutants(folder)) for folder in by_folder}
+    for title, left_out in (("caught of all", lambda r: False), ("caught of those that change something", harmless)):
+        print(title)
+        mean = variance = 0.0
+        for folder, results in sorted(by_folder.items()):
+            kept = [r for r in results if not left_out(r)]
+            caught, weight = sum(r["how"] != "survives" for r in kept), counts[folder] / sum(counts.values())
+            print(f"  {folder:9}{counts[folder]:6}  {share(caught, len(kept))}")
+            mean += weight * caught / len(kept)
+            near = (caught + 2) / (len(kept) + 4)  # so that a folder without survivors is not taken for certain
+            variance += weight**2 * near * (1 - near) / (len(kept) + 4)
+        print(f"  weighted by folder {mean:.1%} +- {1.96 * math.sqrt(variance):.1%}")
     for result in sorted((r for rs in by_folder.values() for r in rs), key=lambda r: r["mutant"]):
         file, number, line, _, what = result["mutant"]
-        if result["how"] == "survives":
+        if result["how"] == "survives" and not harmless(result):
             print(f"{file}:{line}  {what.splitlines()[0]}  (number {number})")
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("action", choices=("map", "run", "score"))
+    parser.add_argument("action", choices=("map", "run", "score", "check"))
     parser.add_argument("tests", nargs="*")
     parser.add_argument("--folders", nargs="*", default=["problems", "schemes", "analysis", "granular", "study"])
     parser.add_argument("--sample", type=int, default=60)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--cap", type=float, default=20)
+    parser.add_argument("--longest", type=float, default=5, help="seconds after which map leaves a test out")
     parser.add_argument("--jobs", type=int, default=1)
     parser.add_argument("--again", action="store_true", help="only the survivors, after new tests or with a larger cap")
     parser.add_argument("--map", type=Path, default=ROOT / "build/mutation-map.json")
@@ -125,12 +152,19 @@ def main():
     if chosen.action == "map":
         import pytest
 
-        watch = Watch()
-        options = ["-o", "addopts=-q", "-m", "not slow", "-p", "no:cacheprovider", "--hypothesis-seed=0"]
+        watch = Watch(chosen.longest)
+        options = ["-o", "addopts=-q", "-p", "no:cacheprovider", "--hypothesis-seed=0"]
         pytest.main([*options, *chosen.tests], plugins=[watch])
         chosen.map.write_text(json.dumps(watch.known(known)))
     elif chosen.action == "run":
         run(known, chosen.results, chosen)
+    elif chosen.action == "check":
+        with tempfile.TemporaryDirectory() as folder:
+            run(known, Path(folder) / "results", chosen)
+            found = [json.loads(line) for line in (Path(folder) / "results").open()]
+        wrong = [f"{r['mutant'][0]}:{r['mutant'][2]} {r['how']}" for r in found if r["how"] != "survives"]
+        print(f"{len(found) - len(wrong)} of {len(found)} survive, as nothing was changed", *wrong, sep="\n")
+        sys.exit(bool(wrong))
     else:
         score(chosen.results)
 

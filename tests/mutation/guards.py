@@ -1,34 +1,43 @@
 """Which tests guard which line: a pytest plugin that watches, and the choice made from what it saw."""
 
+import signal
 import time
 from pathlib import Path
 
+import pytest
 from mutants import ROOT
 
 #: Compiled lines are not seen by the coverage measurement: they are guarded by whatever runs their caller.
 CALLER = {"kernel.py": "block.py", "lines_kernel.py": "lines.py"}
 
-HOUSE = "test_dataclasses_are_frozen"  # what it sees happened when the modules were imported
+HOUSE = (
+    "test_dataclasses_are_frozen",
+    "test_what_is_left_out_is_the_same_everywhere",
+)  # what they see happened when the modules were imported
 
 
 class Watch:
-    """A pytest plugin: what each test runs, and how long it takes. Tests that fail are left out."""
+    """A pytest plugin: what each test runs, and how long it takes. Those that fail, or last too long, are left out."""
 
-    def __init__(self):
+    def __init__(self, longest):
         import coverage
 
-        self.cov, self.seconds, self.failed = coverage.Coverage(data_file=None, source=["primer"]), {}, set()
+        self.cov, self.seconds, self.left_out = coverage.Coverage(data_file=None, source=["primer"]), {}, set()
+        self.longest = longest
+        signal.signal(signal.SIGALRM, lambda *_: pytest.skip("too long"))  # hypothesis passes it on at once
         self.cov.start()
 
     def pytest_runtest_logstart(self, nodeid):
         self.cov.switch_context(nodeid)
         self.seconds[nodeid] = time.perf_counter()
+        signal.setitimer(signal.ITIMER_REAL, self.longest)
 
     def pytest_runtest_logreport(self, report):
-        if report.failed:
-            self.failed.add(report.nodeid)
+        if not report.passed:
+            self.left_out.add(report.nodeid)
 
     def pytest_runtest_logfinish(self, nodeid):
+        signal.setitimer(signal.ITIMER_REAL, 0)
         self.seconds[nodeid] = time.perf_counter() - self.seconds[nodeid]
         self.cov.switch_context("")
 
@@ -41,7 +50,7 @@ class Watch:
         for path in data.measured_files():
             of_file = lines.setdefault(Path(path).relative_to(ROOT).as_posix(), {})
             for line, tests in data.contexts_by_lineno(path).items():
-                of_file.setdefault(str(line), []).extend(test for test in tests if test and test not in self.failed)
+                of_file.setdefault(str(line), []).extend(test for test in tests if test and test not in self.left_out)
         return {"seconds": before["seconds"] | self.seconds, "lines": lines}
 
 

@@ -60,7 +60,7 @@ def mutants(folder):
 
 
 class Spoil(importlib.abc.MetaPathFinder, importlib.machinery.SourceFileLoader):
-    """Finds and loads the one module that is changed."""
+    """Finds and loads the one module that is changed; with the number -1 it is left as it is."""
 
     def __init__(self, file, number):
         super().__init__(file.removesuffix(".py").removesuffix("/__init__").replace("/", "."), str(ROOT / file))
@@ -71,8 +71,9 @@ class Spoil(importlib.abc.MetaPathFinder, importlib.machinery.SourceFileLoader):
 
     def get_code(self, name):
         tree = ast.parse(Path(self.path).read_text("utf-8"))
-        every = [(place, new) for place in places(tree) for new in changes(place[-1])]
-        (parent, field, i, old), new = every[self.number]
-        ast.fix_missing_locations(ast.copy_location(new, old))
-        setattr(parent, field, new) if i is None else getattr(parent, field).__setitem__(i, new)
+        if self.number >= 0:
+            every = [(place, new) for place in places(tree) for new in changes(place[-1])]
+            (parent, field, i, old), new = every[self.number]
+            ast.fix_missing_locations(ast.copy_location(new, old))
+            setattr(parent, field, new) if i is None else getattr(parent, field).__setitem__(i, new)
         return compile(tree, self.path, "exec")
