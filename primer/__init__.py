@@ -61,7 +61,7 @@ _HOME = {
     "verdict": "analysis.verdict",
     "work_precision": "study.cost",
 }
-_ROOMS = ("problems", "schemes", "analysis", "granular", "study", "view")
+_ROOMS = ("exercises", "problems", "schemes", "analysis", "granular", "study", "scenes", "view")
 
 __all__ = sorted(_HOME)
 

@@ -1,8 +1,10 @@
 """What a type checker sees of ``primer``: the names that __init__.py loads when they are first asked for."""
 
 from . import analysis as analysis
+from . import exercises as exercises
 from . import granular as granular
 from . import problems as problems
+from . import scenes as scenes
 from . import schemes as schemes
 from . import study as study
 from . import view as view

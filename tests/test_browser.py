@@ -25,9 +25,7 @@ def folder(tmp_path_factory):
     """Notebook 03 as it is, and a notebook with one cell for each explorer."""
     folder = tmp_path_factory.mktemp("course")
     shutil.copy(COURSE / "03_grid_dependence.ipynb", folder)
-    cells = [
-        nbformat.v4.new_code_cell(f"from primer.view.explorers import {name}\n\n{name}()") for name in explorers.__all__
-    ]
+    cells = [nbformat.v4.new_code_cell(f"from primer.view import {name}\n\n{name}()") for name in explorers.__all__]
     kernel = {"kernelspec": {"name": "python3", "display_name": "Python 3 (ipykernel)", "language": "python"}}
     nbformat.write(nbformat.v4.new_notebook(cells=cells, metadata=kernel), folder / "explorers.ipynb")
     return folder

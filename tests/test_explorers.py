@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from matplotlib.image import imread
 
+import primer
 from primer.view import explorers
 from primer.view.explorers.controls import Choice, Line, Number
 from primer.view.picture import Picture
@@ -144,6 +145,32 @@ def test_a_snapshot_says_what_it_shows(explorer):
     assert still.verdict in data["text/plain"]
     assert metadata["image/png"]["alt"] == still.verdict
     assert pixels(data["image/png"]).shape[1] > 700
+
+
+@every
+def test_a_snapshot_of_an_explorer_starts_from_where_it_is(explorer):
+    shown = explorer.from_state(list(explorer.presets.values())[-1])
+    still = shown.snapshot()
+    assert (still.state, still.verdict) == (shown.state, shown.verdict)
+    control = next(c for c in explorer.controls if isinstance(c, Number))
+    moved = shown.snapshot(**{control.name: control.high})
+    assert moved.state == explorer(**shown.values | {control.name: control.high}).state
+    assert shown.state == still.state  # nothing moved
+
+
+@every
+def test_an_explorer_is_had_from_the_view(explorer):
+    assert getattr(primer.view, explorer.__name__) is explorer
+    assert explorer.__name__ in dir(primer.view)
+    with pytest.raises(AttributeError, match="has no attribute 'Nonsense'"):
+        _ = primer.view.Nonsense
+
+
+@every
+def test_a_state_says_each_thing_once(explorer):
+    state = explorer().state
+    with pytest.raises(ValueError, match=f"state must say {explorer.controls[0].name} once"):
+        explorer.from_state(f"{state},{state}")
 
 
 @pytest.mark.slow

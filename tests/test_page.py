@@ -16,7 +16,7 @@ from jupyter import ARTEFACTS, CHROMIUM, chromium
 
 import primer
 from primer.scenes.base_state import base_state
-from primer.view.explorers import BaseStateExplorer
+from primer.view import BaseStateExplorer
 from primer.view.page import explorer_page, possible
 from primer.view.page.plots import LINES
 from primer.view.page.states import atlas

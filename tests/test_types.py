@@ -82,7 +82,7 @@ from primer import growth_limit, linearise, march_lines, max_growth, neutral_ine
 from primer import CENTRAL_4, FOURIER, RK8, stable_dt, verdict, work_precision
 from primer.exercises import ask_03_1, check_03_1
 from primer.granular import GLASS_BEADS, coefficients, largest_growth
-from primer.view.explorers import RefinementExplorer
+from primer.view import RefinementExplorer
 
 class Advection:
     fields = ("u",)

@@ -196,18 +196,20 @@ def write_state(controls, values):
 
 
 def read_state(controls, text):
-    """Name -> value from such a text; what it leaves out keeps its default.
+    """Name -> value from such a text, of what it names.
 
     Raises
     ------
-    ValueError    if it is not of this form, or names what is not there
+    ValueError    if it is not of this form, names what is not there, or names something twice
     """
-    known, values = {control.name: control for control in controls}, defaults(controls)
+    known, values = {control.name: control for control in controls}, {}
     for part in str(text).split(","):
         name, equals, value = (piece.strip() for piece in part.partition("="))
         if not part.strip():
             continue
         if not equals or name not in known:
             raise ValueError(f"state must be NAME=VALUE parted by commas, of {', '.join(known)}, got {shown(part)}")
+        if name in values:
+            raise ValueError(f"state must say {name} once, got {shown(text)}")
         values[name] = known[name].parse(value)
     return values

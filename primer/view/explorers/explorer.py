@@ -3,6 +3,7 @@
 from collections.abc import Callable
 from html import escape
 from threading import RLock
+from types import MethodType
 from typing import Any, ClassVar, Self
 
 import ipywidgets as widgets
@@ -15,6 +16,16 @@ from primer.view.still import render
 
 # A notebook may call back from a thread of its own while a cell still draws, and matplotlib draws one thing at a time.
 _DRAWING = RLock()
+
+
+class _AlsoOfTheClass:
+    """A method whose ``self`` is the explorer, or the class when it is asked of the class."""
+
+    def __init__(self, function):
+        self.__wrapped__, self.__doc__ = function, function.__doc__
+
+    def __get__(self, explorer, owner):
+        return MethodType(self.__wrapped__, owner if explorer is None else explorer)
 
 
 class Explorer:
@@ -58,15 +69,18 @@ class Explorer:
         """
         return cls(**read_state(cls._all(), text))
 
-    @classmethod
-    def snapshot(cls, state: str = "", **values: Any) -> Snapshot:
+    @_AlsoOfTheClass
+    def snapshot(self, state: str = "", **values: Any) -> Snapshot:
         """A still picture of a state, with its verdict: for pages that are printed, or read where nothing runs.
+
+        Asked of an explorer, what is left out is as it is there; asked of the class, it has its default.
 
         Raises
         ------
         TypeError, ValueError    for a state or a value of which the explorer would say so
         """
-        values = read_state(cls._all(), state) | cls._known(values)
+        cls, start = (self, defaults(self._all())) if isinstance(self, type) else (type(self), self.values)
+        values = start | read_state(cls._all(), state) | cls._known(values)
         asked, looks = cls._parted(values)
         answer = cls.answer(**asked)
         png = render(cls.layout, lambda axes: cls.draw(axes, answer, **looks))
@@ -111,7 +125,7 @@ class Explorer:
         """
         if name not in self.presets:
             raise ValueError(f"name must be one of {', '.join(map(repr, self.presets))}, got {shown(name)}")
-        self.set(**read_state(self._all(), self.presets[name]))
+        self._go_to(self.presets[name])
 
     def _update(self):
         """Answer, draw and say; whatever goes wrong is said too, since nobody sees an exception in a callback."""
@@ -138,11 +152,15 @@ class Explorer:
         with self._copy.hold_trait_notifications():
             self._copy.value = self.state
 
+    def _go_to(self, state):
+        """To this state, and to the default of what it leaves out."""
+        self.set(**defaults(self._all()) | read_state(self._all(), state))
+
     def _restore(self, change):
         """A state was typed or pasted."""
         if change["new"] != self.state:
             try:
-                self.set(**read_state(self._all(), change["new"]))
+                self._go_to(change["new"])
             except ValueError as error:
                 self._say(str(error), wrong=True)
 
