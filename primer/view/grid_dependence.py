@@ -44,7 +44,7 @@ def draw_seeds(ax, ladder):
         label=f"slope {ladder.slope:.3f};  1/growth = {1 / ladder.rate:.3f}",
     )
     ax.set(xlabel="amplitude δ of the seed", ylabel="blow-up time")
-    ax.legend()
+    ax.legend(loc="lower left")
 
 
 def draw_ladder(ax, measured, foreseen):

@@ -47,7 +47,7 @@ def draw_u(ax, runs, fields, colors, styles=("-", "--", "-.")):
         ax.plot(np.append(run.x, np.pi), np.append(u, u[0]), color=color, ls=ls, label=f"N = {run.n}")
     ax.set(xlabel="x", ylabel="u", xlim=(-np.pi, np.pi))
     ax.set_xticks([-np.pi, 0, np.pi], [r"$-\pi$", "0", r"$\pi$"])
-    ax.legend(loc="upper center", ncols=2, frameon=True, framealpha=0.9, edgecolor="none")  # blow-ups fill the picture
+    ax.legend(loc="upper center", ncols=2)
 
 
 def draw_against(ax, x, u, exact, label="u"):
@@ -57,7 +57,7 @@ def draw_against(ax, x, u, exact, label="u"):
     ax.plot(np.append(x, np.pi), np.append(u, u[0]), "o-", color=U, ms=3, lw=1, label=label)
     ax.set(xlabel="x", ylabel="u", xlim=(-np.pi, np.pi))
     ax.set_xticks([-np.pi, 0, np.pi], [r"$-\pi$", "0", r"$\pi$"])
-    ax.legend(loc="upper left", ncols=2, frameon=True, framealpha=0.9, edgecolor="none")
+    ax.legend(loc="upper left", ncols=2)
 
 
 def draw_fields(ax, run, state, time):
@@ -71,7 +71,7 @@ def draw_fields(ax, run, state, time):
     ax.plot(x, v, color=V, ls="--", label="v")
     ax.set(xlabel="x", ylabel="u, v", xlim=(-np.pi, np.pi), title=f"(b) fields at t = {time:g}")
     ax.set_xticks([-np.pi, 0, np.pi], [r"$-\pi$", "0", r"$\pi$"])
-    ax.legend(loc="upper center")
+    ax.legend(loc="upper center", ncols=2)
 
 
 def shade_negative(ax, x, u):

@@ -13,6 +13,7 @@ CALLER = {"kernel.py": "block.py", "lines_kernel.py": "lines.py"}
 HOUSE = (
     "test_dataclasses_are_frozen",
     "test_what_is_left_out_is_the_same_everywhere",
+    "test_what_is_left_out_and_what_is_fixed_is_what_was_released",
 )  # what they see happened when the modules were imported
 
 

@@ -20,9 +20,11 @@ def draw_base_state(axes: Sequence[Axes], answer: BaseStateAnswer, t: float) -> 
     run = answer.run
     draw_growth(growth, answer.xi, answer.rate, label="the equations", color="black")
     draw_growth(growth, answer.grid_xi, answer.grid_rate, label=f"on N = {run.n}", cut_off=run.n / 2, ls="--", color=V)
+    if answer.growth > 0:
+        growth.axhline(answer.growth, color=V, ls="-.", lw=1, label=f"on N = {run.n}, all x: {answer.growth:.3g}")
     shade_growing(growth, 6)
     growth.set(title="growth frozen at x = 0, (toy-mat)", xlim=(0, 128), ylim=(-2, 6))
-    growth.legend(loc="upper left")
+    growth.legend(loc="lower right")
     draw_dist(dist, run)
     for time, name, ls in ((answer.predicted, "foretold", ":"), (answer.measured, "blow-up", "-")):
         if time <= T_END:
