@@ -19,6 +19,7 @@ import json
 import math
 import os
 import random
+import resource
 import signal
 import sys
 import tempfile
@@ -37,7 +38,9 @@ def face(known, file, number, first, last, cap):
     import pytest
 
     helpings = guards(known, file, first, last, cap)
-    signal.alarm(int(60 + 5 * sum(known["seconds"][test] for tests in helpings for test in tests)))
+    longest = int(60 + 5 * sum(known["seconds"][test] for tests in helpings for test in tests))
+    signal.alarm(longest)
+    resource.setrlimit(resource.RLIMIT_CPU, (longest, longest))  # some tests set alarms of their own
     os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
     os.dup2(1, 2)
     sys.meta_path.insert(0, Spoil(file, number))
