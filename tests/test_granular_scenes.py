@@ -206,6 +206,9 @@ def test_the_command_prints_text_or_json_and_refuses_what_is_not_physical(capsys
     assert "well-posed" in capsys.readouterr().out
     assert main([*arguments, "--json"]) == 0
     assert json.loads(capsys.readouterr().out)["verdict"] == "well-posed"
+    for name, law in (("Coulomb", "Coulomb"), ("mu(I)", "IncompressibleMuI"), ("mui", "IncompressibleMuI")):
+        assert main([*arguments[:2], name, *arguments[3:]]) == 0
+        assert capsys.readouterr().out.startswith(f"{law}(")
     for wrong in ("--phi 0.7", "--p -1", "--I 0", "--mu2 0.1", "--p nan", "--p 5"):
         assert main([*arguments, *wrong.split()]) == 2
         said = capsys.readouterr().err

@@ -31,7 +31,9 @@ def add_command(commands):
         allow_abbrev=False,
     )
     friction, packing = GLASS_BEADS.friction, EXAMPLE_COMPACTION
-    parser.add_argument("--law", required=True, choices=LAWS, help="Coulomb, incompressible mu(I), CSSM or CIDR")
+    parser.add_argument(
+        "--law", required=True, type=_law, choices=LAWS, help="Coulomb, incompressible mu(I), CSSM or CIDR"
+    )
     parser.add_argument("--p", type=float, required=True, help="pressure, in any unit (that of C0)")
     parser.add_argument("--phi", type=float, required=True, help="solids fraction")
     parser.add_argument("--I", type=float, required=True, help="inertial number")
@@ -51,6 +53,11 @@ def add_command(commands):
 def _run(options):
     answer = report(**{name: value for name, value in vars(options).items() if name in _NAMES})
     return json.dumps(answer, indent=1) if options.json else text(answer)
+
+
+def _law(text):
+    """As people write it: CIDR, mu(I)."""
+    return text.lower().replace("mu(i)", "mui")
 
 
 def report(law, p, phi, I, d=1.0, rho=1.0, mu1=None, mu2=None, I0=None, mu=None, phi0=None, eps=None, C0=None):
