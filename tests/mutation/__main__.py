@@ -104,34 +104,36 @@ def share(k, n):
     return f"{k}/{n} = {k / n:.1%} [{middle - half:.1%}, {middle + half:.1%}]"
 
 
-def harmless(result):
-    """Whether a survivor is one of those that change nothing."""
-    file, number, _, _, what = result["mutant"]
-    listed = (ROOT / "tests/mutation/harmless.txt").read_text("utf-8").splitlines()
-    sought = f"{file}  number {number}  {what.splitlines()[0]}"
-    return result["how"] == "survives" and sought in (line.split("  # ")[0] for line in listed)
+def entry(mutant):
+    """How harmless.txt names a mutant: it holds until that line of code is edited."""
+    file, _, line, _, what, column = mutant
+    code = (ROOT / file).read_text("utf-8").splitlines()[line - 1].strip()
+    return f"{file}  {code}  [{column}: {what.splitlines()[0]}]"
 
 
 def score(out):
+    listed = (ROOT / "tests/mutation/harmless.txt").read_text("utf-8").splitlines()
+    listed = {line.rsplit("]  # ", 1)[0] + "]" for line in listed}
     by_folder = defaultdict(list)
     for result in map(json.loads, out.open()):
         by_folder[result["mutant"][0].split("/")[1]].append(result)
     counts = {folder: sum(1 for _ in mutants(folder)) for folder in by_folder}
-    for title, left_out in (("caught of all", lambda r: False), ("caught of those that change something", harmless)):
+    left = [r["mutant"] for results in by_folder.values() for r in results if r["how"] == "survives"]
+    harmless = {tuple(mutant) for mutant in left if entry(mutant) in listed}
+    for title, left_out in (("caught of all", set()), ("caught of those that change something", harmless)):
         print(title)
         mean = variance = 0.0
         for folder, results in sorted(by_folder.items()):
-            kept = [r for r in results if not left_out(r)]
+            kept = [r for r in results if tuple(r["mutant"]) not in left_out]
             caught, weight = sum(r["how"] != "survives" for r in kept), counts[folder] / sum(counts.values())
             print(f"  {folder:9}{counts[folder]:6}  {share(caught, len(kept))}")
             mean += weight * caught / len(kept)
             near = (caught + 2) / (len(kept) + 4)  # so that a folder without survivors is not taken for certain
             variance += weight**2 * near * (1 - near) / (len(kept) + 4)
         print(f"  weighted by folder {mean:.1%} +- {1.96 * math.sqrt(variance):.1%}")
-    for result in sorted((r for rs in by_folder.values() for r in rs), key=lambda r: r["mutant"]):
-        file, number, line, _, what = result["mutant"]
-        if result["how"] == "survives" and not harmless(result):
-            print(f"{file}:{line}  {what.splitlines()[0]}  (number {number})")
+    for mutant in sorted(left):
+        if tuple(mutant) not in harmless:
+            print(f"line {mutant[2]} of {entry(mutant)}")
 
 
 def main():

@@ -32,7 +32,7 @@ def changes(node):
         yield from (ast.Constant(node.value + 1), ast.Constant(node.value - 1))
     elif isinstance(node, (ast.If, ast.IfExp, ast.While)):
         yield type(node)(ast.UnaryOp(ast.Not(), node.test), node.body, node.orelse)
-    elif isinstance(node, ast.Return) and node.value is not None:
+    elif isinstance(node, ast.Return) and ast.unparse(node) not in ("return", "return None"):
         yield ast.Return(ast.Constant(None))
     elif isinstance(node, (ast.Raise, ast.Continue, ast.Break)) or (
         isinstance(node, ast.Expr) and not isinstance(node.value, ast.Constant)
@@ -50,13 +50,13 @@ def places(node):
 
 
 def mutants(folder):
-    """Every mutant of a folder: (file, number, first line, last line, what)."""
+    """Every mutant of a folder: (file, number, first line, last line, what, column)."""
     for path in sorted((ROOT / "primer" / folder).glob("*.py")):
         found = ((child, new) for *_, child in places(ast.parse(path.read_text("utf-8"))) for new in changes(child))
         for number, (old, new) in enumerate(found):
             seen = getattr(old, "test", old)
             what = f"{ast.unparse(old)}  ->  {ast.unparse(ast.fix_missing_locations(new))}"
-            yield path.relative_to(ROOT).as_posix(), number, seen.lineno, seen.end_lineno, what
+            yield path.relative_to(ROOT).as_posix(), number, seen.lineno, seen.end_lineno, what, seen.col_offset
 
 
 class Spoil(importlib.abc.MetaPathFinder, importlib.machinery.SourceFileLoader):
