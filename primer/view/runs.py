@@ -38,13 +38,16 @@ def draw_dist(ax, run, floor=None, label=None, color="black", mark=True, **line)
 
 
 def draw_u(ax, runs, fields, colors, styles=("-", "--", "-.")):
-    """u of several grids, ``fields`` of shape (n,) each, over the steady state; where that is negative it is shaded."""
+    """u of several grids, ``fields`` of shape (n,) each, over the steady state; where that is negative it is shaded.
+
+    Colours and styles tell the grids apart, as in the picture of their Dist.
+    """
     x = np.linspace(-np.pi, np.pi, 257)
     steady, _ = runs[0].problem.steady(x)
     shade_negative(ax, x, steady)
     ax.plot(x, steady, color=STEADY, ls=":", lw=1.4, label=r"$a - \cos x$")
     for run, u, color, ls in zip(runs, fields, colors, styles, strict=True):
-        ax.plot(np.append(run.x, np.pi), np.append(u, u[0]), color=color, ls=ls, label=f"N = {run.n}")
+        ax.plot(np.append(run.x, np.pi), np.append(u, u[0]), color=color, ls=ls)
     ax.set(xlabel="x", ylabel="u", xlim=(-np.pi, np.pi))
     ax.set_xticks([-np.pi, 0, np.pi], [r"$-\pi$", "0", r"$\pi$"])
     ax.legend(loc="upper center", ncols=2)

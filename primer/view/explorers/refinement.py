@@ -26,7 +26,7 @@ def draw_refinement(axes: Sequence[Axes], answer: RefinementAnswer, t: float) ->
         label = f"N = {run.n}" + (f", to t = {run.t_stop:.3g}" if lost else "")
         draw_dist(dist, run, label=label, color=f"C{i}", ls=ls, mark=run is coarsest)
         dist.axhline(answer.floor[i], color=f"C{i}", ls=":", lw=1.2)
-        draw_growth(growth, answer.xi[i], answer.rate[i], label=f"on N = {run.n}", color=f"C{i}", ls=ls)
+        draw_growth(growth, answer.xi[i], answer.rate[i], color=f"C{i}", ls=ls)
     dist.plot([], [], color=STEADY, ls=":", lw=1.2, label="floors h/sin h $-$ 1")
     dist.axvline(t, color=STEADY, lw=0.8)
     dist.set(title="distance to the steady state", xlim=(0, T_END), ylim=(1e-5, 1e7))
@@ -37,7 +37,6 @@ def draw_refinement(axes: Sequence[Axes], answer: RefinementAnswer, t: float) ->
     growth.set(title=f"growth in steps of dt = {coarsest.dt:.2g}", xlim=(0, 128), ylim=(-2, 300))
     growth.set_yscale("symlog", linthresh=1)
     shade_growing(growth, 300)
-    growth.legend(loc="upper left")
 
 
 def _u(run, t):
