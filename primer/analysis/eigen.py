@@ -34,7 +34,7 @@ def finite_eigenvalues(S, E, n):
     lam = np.full((len(S), n), np.nan, dtype=complex)
     solvable = n == S.shape[-1] and (np.abs(np.linalg.det(_scaled(E)[0])) > 1e-12).all()
     regular = np.full(len(S), True) if solvable else ~_singular(S, E)
-    if n and regular.any():
+    if n:
         S, E = S[regular], E[regular]
         found = _start(S, E, n, solvable)
         lam[regular] = _told_apart(S, E, _polished(S, E, found, np.ones(found.shape, dtype=bool)))
