@@ -77,6 +77,11 @@ def test_common_factors(shared, one, two):
         (10**30 * (z**2 + 1), 10**30 * (z**2 + s * z + 1 + sp.I * s)),
         (sp.Integer(2) ** -200 * (z**2 + 1), sp.Integer(2) ** -200 * (z**2 + s * z + 2)),
         (sp.I * z**4 + s * z, 3 * z**3 - s**3),
+        (s**3 * z**2 + s * z + 1, z**3 - 2),  # the parameter in one of them only
+        (z**3 - 2, s**3 * z**2 + s * z + 1),
+        *((2**m * (z + s), 2**n * (z - 2 * s)) for m, n in ((300, 0), (0, 300))),  # of very different sizes
+        *((sp.Integer(2) ** -m * (z**2 + s), sp.Integer(2) ** -n * (z - 2 * s)) for m, n in ((300, 0), (0, 300))),
+        ((s - 1) * (z + 1), (z + 1) * (z + 2)),  # a common root, and a polynomial that vanishes for s = 1
     ],
 )
 def test_resultants_against_sympy(p, q):
@@ -162,8 +167,8 @@ def test_few_roots_and_roots_at_zero():
 @pytest.mark.parametrize("places", [[1, 2, 3], [1, -1, 2, 2, 5, 5], [3, 3, 3], [1, 2], [0, 0, 1, 1, 4, 7]])
 def test_roots_far_from_one_in_size(places, power):
     with mp.workdps(DIGITS):
-        scale = mp.mpf(10) ** power
-        found = sorted(roots(from_roots([place * scale for place in places], mp.mpf(3))), key=lambda pair: pair[0].real)
+        scale, factor = mp.mpf(10) ** power, mp.mpf(10) ** (3 * power) / 3
+        found = sorted(roots(from_roots([place * scale for place in places], factor)), key=lambda pair: pair[0].real)
         assert [multiplicity for _, multiplicity in found] == [places.count(place) for place in sorted(set(places))]
         for (value, _), place in zip(found, sorted(set(places)), strict=True):
             assert abs(value - place * scale) <= mp.mpf(10) ** -60 * scale
