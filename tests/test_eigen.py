@@ -178,6 +178,10 @@ def test_what_runs_away_to_infinity_is_not_a_number():
         assert np.isnan(found[0]).sum() == 1
         assert found[0][~np.isnan(found[0])] == pytest.approx([finite], rel=1e-14)
         assert sorted(found[1], key=abs) == pytest.approx(sorted([1, finite], key=abs), rel=1e-14)
+    for values, E in (([1.0, 3, -1, 0], [0, 1, 1, 1]), ([2.0, 1e-3, 1e5, 1], [1, 1, 1, 0])):
+        found = eigen.finite_eigenvalues(np.diag(values)[None], np.diag(E)[None], 4)[0]
+        expected = [-value for value, e in zip(values, E, strict=True) if e]
+        np.testing.assert_allclose(np.sort(found.real), np.sort([*expected, np.nan]), rtol=1e-14, atol=1e-300)
     found = eigen.finite_eigenvalues(np.diag([1.0, 1, -5])[None], np.diag([0, 0, 1.0])[None], 3)[0]
     assert np.isnan(found).sum() == 2
     assert found[~np.isnan(found)] == pytest.approx([5], rel=1e-14)

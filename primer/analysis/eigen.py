@@ -154,5 +154,6 @@ def _start(S, E, n, solvable):
         theta: np.ndarray = np.linalg.eigvals(np.linalg.solve(A, rows[..., :, None] * columns[..., None, :] * E))
         theta = np.take_along_axis(theta, np.argsort(-np.abs(theta), axis=1), axis=1)[:, :n]
         lam = mu[:, None] - 1 / np.where(theta == 0, TINY, theta)
-        mu = np.exp(0.7j) * np.maximum(2 * np.abs(lam).max(axis=1), 1e-8 * np.abs(mu))
+        largest = np.where(theta == 0, 0, np.abs(lam)).max(axis=1)  # those at infinity left out
+        mu = np.exp(0.7j) * np.maximum(2 * largest, 1e-8 * np.abs(mu))
     return lam
