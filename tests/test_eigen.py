@@ -89,9 +89,11 @@ def test_equilibration_leaves_zeros_and_goes_no_further_than_can_be_inverted():
 
 
 def test_the_first_guess_of_a_size():
-    S = np.array([[[3, 0], [0, -6j]], [[0, 0], [0, 0]], [[5, 0], [0, 0]], [[0, 0], [0, 0]]])
-    E = np.array([[[1, 0], [2, 0]], [[0, 4], [0, 0]], [[0, 0], [0, 0]], [[0, 0], [0, 0]]])
-    np.testing.assert_array_equal(eigen._size(S, E), [3, 0.25, 1, 1])
+    S, E = (
+        np.array(sizes)[:, None, None] * np.array([[0.5, 0], [0, -1j]])
+        for sizes in ([6, 0, 5, 0, 0.5], [2, 4, 0, 0, 0.25])
+    )
+    np.testing.assert_array_equal(eigen._size(S, E), [3, 0.25, 1, 1, 2])
 
 
 @pytest.mark.parametrize("scale", [1e-30, 1.0, 1e30])
@@ -207,6 +209,7 @@ def test_singular_pencils_among_others_and_none_at_all():
     np.testing.assert_array_equal(eigen.finite_eigenvalues(S[1:], E[1:], 1), [[np.nan]])
     assert eigen.finite_eigenvalues(S[:1], 0 * E[:1], 0).shape == (1, 0)
     assert eigen.finite_eigenvalues(S[:0], E[:0], 1).shape == (0, 1)
+    assert eigen.finite_eigenvalues(np.array([[[5.0]]]), np.array([[[0.0]]]), 0).shape == (1, 0)
     whole = np.array([np.eye(2), np.diag([1.0, 0])])
     np.testing.assert_allclose(np.sort_complex(eigen.finite_eigenvalues(S[[0, 1]], whole, 2)[0]), [-1, 3])
     assert np.isnan(eigen.finite_eigenvalues(S[[0, 1]], whole, 2)[1]).all()

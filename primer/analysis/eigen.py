@@ -68,7 +68,7 @@ def _polished(S, E, lam, active):
         size = np.abs(step)
         # Stop at rounding level, or when a step no longer shrinks: a zero or a multiple eigenvalue has no better value.
         done = (size <= 2 * EPS * np.abs(now)) | ((size > last[rows] / 2) & (last[rows] <= 1e-7 * np.abs(now)))
-        active[rows] &= ~(done | lost[rows] | (size == 0))
+        active[rows] &= ~(done | lost[rows])
         last[rows] = size
     lam[lost] = np.nan
     return lam
