@@ -245,3 +245,24 @@ def test_a_small_eigenvalue_taken_for_a_second_zero_is_found(small, scale):
     S = -scale * np.array([np.diag([0, 0, 1])]).astype(complex)
     found = eigen._told_apart(S, E, scale * np.array([[0, 0, 1]], dtype=complex))
     np.testing.assert_array_equal(found, scale * np.array([[0, 0, 1]]))
+
+
+def test_eigenvalues_that_nearly_meet_are_as_near_as_rounding_lets_them_be():
+    """[[c, c d], [c, c]] has c (1 +- sqrt d); an error e of its entries moves them by e/sqrt d, or sqrt e at most."""
+    random = np.random.default_rng(28)
+    c, d = random.uniform(0.5, 2, 600), 10 ** random.uniform(-20, -4, 600) * random.choice([-1, 1], 600)
+    M = c[:, None, None] * np.stack([np.stack([d**0, d], -1), np.ones((600, 2))], 1)
+    found = eigen.finite_eigenvalues(-M.astype(complex), np.tile(np.eye(2), (600, 1, 1)), 2)
+    root = c * np.sqrt(d.astype(complex))
+    gaps = [np.abs(found - c[:, None] - sign * np.stack([root, -root], 1)).max(axis=1) for sign in (1, -1)]
+    assert (np.min(gaps, axis=0) <= 8 * np.minimum(np.sqrt(eigen.EPS), eigen.EPS / np.abs(root))).all()
+
+
+@pytest.mark.parametrize(("last", "end"), [(1e-9, 2.0), (1e-3, 2.0 - 1e-2)])
+def test_a_step_that_grows_again_at_rounding_level_is_not_taken(monkeypatch, last, end):
+    """f'/f is rounding where two eigenvalues meet. Steps of 0.1, then ``last``, then ten times as much or more."""
+    steps = iter([0.1, last, 1e-2, 1e-300])
+    monkeypatch.setattr(eigen, "_log_derivative", lambda S, E, lam: np.array([[1 / next(steps)]]) + 0j)
+    one = np.ones((1, 1, 1), dtype=complex)
+    found = eigen._polished(one, one, np.array([[2.1 + last + 0j]]), np.array([[True]]))
+    assert found.item() == pytest.approx(end, abs=1e-12)

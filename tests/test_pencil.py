@@ -493,3 +493,18 @@ def test_each_peak_is_followed_by_itself():
     np.testing.assert_allclose(found, tops, atol=2e-15)
     level = directions._followed(None, np.ones(2), start, 0.1, lambda *a: np.ones(a[2].shape))
     np.testing.assert_array_equal(level, start)
+
+
+@pytest.mark.parametrize("towards", [1e-4, 0.70002, 3.1415, 4.00003])
+@pytest.mark.parametrize("power", [1, 2])
+def test_a_narrow_window_of_growth_is_found_wherever_it_is(towards, power):
+    """lambda = (d . xi)^power +- sqrt(eps^2 (d . xi)^2 - (n . xi)^2): 1 + eps along d, in a window eps wide."""
+    c, s, eps = np.cos(towards), np.sin(towards), 1e-5
+
+    def S(xi):
+        along, across = c * xi[0] + s * xi[1], c * xi[1] - s * xi[0]
+        return [[-(along**power), -((eps * along) ** 2 - across**2)], [-1, -(along**power)]]
+
+    best = max_growth(Pencil(S, np.eye(2), dim=2), 1.0)
+    assert best.growth == pytest.approx(1 + eps, abs=1e-10)
+    assert best.direction @ [c, s] * (1 if power == 1 else np.sign(best.direction @ [c, s])) == pytest.approx(1)

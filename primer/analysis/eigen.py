@@ -63,11 +63,14 @@ def _polished(S, E, lam, active):
         gap = now[:, :, None] - now[:, None, :]
         others = _inverse(gap).sum(axis=2)
         step = _inverse(newton - others) * active[rows]
-        lost[rows] |= np.abs(now - step) > LOST
-        lam[rows] = np.where(lost[rows], LOST * np.exp(1j * np.arange(now.shape[1])), now - step)
         size = np.abs(step)
+        settled = last[rows] <= 1e-7 * np.abs(now)
+        # Near a multiple eigenvalue a step at rounding level may go anywhere: one that has grown is not taken.
+        new = np.where(settled & (size > last[rows]), now, now - step)
+        lost[rows] |= np.abs(new) > LOST
+        lam[rows] = np.where(lost[rows], LOST * np.exp(1j * np.arange(now.shape[1])), new)
         # Stop at rounding level, or when a step no longer shrinks: a zero or a multiple eigenvalue has no better value.
-        done = (size <= 2 * EPS * np.abs(now)) | ((size > last[rows] / 2) & (last[rows] <= 1e-7 * np.abs(now)))
+        done = (size <= 2 * EPS * np.abs(now)) | (settled & (size > last[rows] / 2))
         active[rows] &= ~(done | lost[rows])
         last[rows] = size
     lam[lost] = np.nan
