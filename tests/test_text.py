@@ -428,6 +428,7 @@ def test_expressions_up_to_the_limits(text, slope):
         ("u_t = 0^-2*u", "division by zero", 7),
         (f"u_t = {2**40}^100*u", "a power that is too large", 19),
         (f"u_t = ({2**20 - 1}/{2**19 + 1}*k)^-102*u", "a power that is too large", 24),
+        (f"u_t = {2**99}^(4001/100)*u", "a power that is too large", 36),
         ("u_t = k^101*u", "a power that is too large", 7),
         ("u_t = k^-101*u", "a power that is too large", 7),
         ("u_t = k^(1/101)*u", "a power that is too large", 7),

@@ -116,7 +116,7 @@ class _Builder:
     def number(self, node):
         digits, imaginary = node.value
         _, _, exponent = digits.lower().partition("e")
-        if len(digits) > 60 or abs(int(exponent or 0)) > 300:
+        if len(digits) > 60 or abs(int(exponent or "0")) > 300:
             self.fail("a number with more digits, or a larger exponent, than is allowed", node)
         value = sp.Rational(digits)
         return value * sp.I if imaginary else value
