@@ -420,6 +420,7 @@ def test_expressions_up_to_the_limits(text, slope):
         ("u_t = 2*1e301*u", "a number with more digits, or a larger exponent, than is allowed", 8),
         ("u_t = 2*1E-301*u", "a number with more digits, or a larger exponent, than is allowed", 8),
         ("u_t = u + u_xz", "a third space variable: there are x and y only", 10),
+        ("u_t = u + u_txyz", "a third space variable: there are x and y only", 10),
         ("u_t = u + t_x", "t is an independent variable and cannot be differentiated", 10),
         ("u_t = u_" + "x" * 13, "a derivative of order 13, above the 12 allowed", 6),
         ("u_t = (3*u_" + "x" * 12 + ")_y", "a derivative of order 13, above the 12 allowed", 24),
