@@ -480,6 +480,25 @@ def test_of_too_few_local_maxima_the_first_is_repeated():
     np.testing.assert_allclose(peaks * 6 / np.pi, [[1, 4]])
 
 
+def test_local_maxima_of_random_scans_one_by_one():
+    """Higher than both neighbours, the circle closed, or as high as any; the highest first, the earlier of equals."""
+    random = np.random.default_rng(21)
+    for number in (1, 2, 3, 9):
+        angle = np.sort(random.uniform(0, np.pi, (12, 7)), axis=1)
+        f = random.integers(-3, 4, angle.shape).astype(float)
+        peaks, spacing = directions._highest(angle, f, np.pi, number)
+        expected = []
+        for row in f:
+            found = [n for n in range(7) if row[n] > max(row[n - 1], row[(n + 1) % 7]) or row[n] == row.max()]
+            expected.append(sorted(found, key=lambda n, row=row: -row[n])[:number])
+        width = min(number, max(map(len, expected)))
+        for x, found, top, wide in zip(angle, expected, peaks, spacing, strict=True):
+            found += found[:1] * (width - len(found))
+            np.testing.assert_array_equal(top, x[found])
+            beside = [max((x[n] - x[n - 1]) % np.pi, (x[(n + 1) % 7] - x[n]) % np.pi) for n in found]
+            np.testing.assert_allclose(wide, beside)
+
+
 def test_each_peak_is_followed_by_itself():
     """Two wavenumbers and two peaks each, of width and height that differ, from places of their own."""
     tops = np.array([[0.3, 1.2], [2.0, -0.5]])

@@ -93,6 +93,19 @@ def test_rates_at_rounding_level_are_zero_and_undetermined_ones_lowest():
     assert supremum._rates(nothing, np.zeros(2), np.zeros(2)).tolist() == [-np.inf] * 2
 
 
+def test_peaks_are_the_places_that_none_of_four_neighbours_exceeds():
+    """Angles go round; beyond the first and the last length there is nothing."""
+    random = np.random.default_rng(21)
+    for shape in ((6, 5), (4, 2), (5, 1), (1, 4), (2, 3)) * 4:
+        rate = random.integers(0, 6, shape).astype(float)
+        lengths, angles = shape
+        for n, m in np.ndindex(shape):
+            beside = [rate[n, m - 1], rate[n, (m + 1) % angles]] + [
+                rate[i, m] for i in (n - 1, n + 1) if 0 <= i < lengths
+            ]
+            assert supremum._peaks(rate)[n, m] == (rate[n, m] if rate[n, m] >= max(beside) else -np.inf)
+
+
 def test_a_maximum_is_followed_uphill():
     """u_t of (xi . d)^2 - |xi|^4 from a place of the scan; a place that is the top already stays."""
     line = Pencil(lambda xi: [[xi**4 - xi**2]], [[1]], dim=1)
