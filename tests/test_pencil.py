@@ -10,6 +10,7 @@ import sympy
 
 import primer.analysis.directions as directions
 import primer.analysis.eigen as eigen
+import primer.checks as checks
 from primer import Pencil, growth, max_growth
 
 
@@ -234,3 +235,295 @@ def test_following_a_peak_goes_to_rounding_level_and_stops_where_nothing_moves()
     assert len(seen) == 5
     assert follow(0.2265433) == pytest.approx(0.3, abs=1e-15)
     assert 20 < len(seen) <= 36
+
+
+# ---------------------------------------------------------------- sentences and limits
+
+EYE = np.eye(2)
+
+
+@pytest.mark.parametrize(
+    ("make", "error", "sentence"),
+    [
+        (lambda: Pencil([[1, 2]], EYE), ValueError,
+         "S must give one square matrix for one wavevector, got shape (1, 2)"),
+        (lambda: Pencil(EYE, [1, 2]), ValueError, "E must give one square matrix for one wavevector, got shape (2,)"),
+        (lambda: Pencil(lambda xi: [[1, 2]], EYE, dim=1), ValueError,
+         "S must give one square matrix for one wavevector, got shape (1, 2)"),
+        (lambda: Pencil(EYE, lambda xi: [[]]), ValueError,
+         "E must give one square matrix for one wavevector, got shape (1, 0)"),
+        (lambda: Pencil(np.zeros((0, 0)), EYE), ValueError,
+         "S must give one square matrix for one wavevector, got shape (0, 0)"),
+        (lambda: Pencil("S", EYE), TypeError, "S must give a matrix of numbers, got str"),
+        (lambda: Pencil([[1, 2], [3]], EYE), TypeError, "S must give a matrix of numbers, got list"),
+        (lambda: Pencil([[np.nan, 2], [3, 1]], EYE), ValueError,
+         "S must be finite everywhere, got array([[nan+0.j, 2.+0.j], [ 3.+0.j, 1.+0.j]])"),
+        (lambda: Pencil(np.eye(3), EYE), ValueError,
+         "S and E must be square matrices of the same size, got (3, 3) and (2, 2)"),
+        (lambda: Pencil(np.eye(13), np.eye(13)), ValueError, "S and E must be no larger than 12 x 12, got 13 x 13"),
+        (lambda: Pencil(np.diag([1, 0]), np.diag([1, 0])), ValueError,
+         "the pencil is singular: det(lambda E + S) vanishes identically, so the equations do not determine the "
+         "unknowns"),
+        (lambda: Pencil(EYE, EYE, dim=3), ValueError, "dim must be an integer >= 1 and <= 2, got 3"),
+        (lambda: Pencil(EYE, EYE, dim=0), ValueError, "dim must be an integer >= 1 and <= 2, got 0"),
+        (lambda: growth(navier_stokes(), [1.0, 2.0, 3.0]), ValueError,
+         "xi must have shape (2, ...) for two space variables, got shape (3,)"),
+        (lambda: growth(navier_stokes(), 1.0), ValueError,
+         "xi must have shape (2, ...) for two space variables, got shape ()"),
+        (lambda: growth(EYE, 1.0), TypeError,
+         "pencil must be a Pencil (for equations as text there is growth_rates), got array([[1., 0.], [0., 1.]])"),
+        (lambda: max_growth("u_t = u", 1.0), TypeError,
+         "pencil must be a Pencil (for equations as text there is growth_rates), got 'u_t = u'"),
+        (lambda: max_growth(navier_stokes(), [1.0, 0.0]), ValueError,
+         "k must be positive everywhere, being the length of the wavevector, got array([1., 0.])"),
+        (lambda: growth(navier_stokes(), [1e80, 1.0]), ValueError,
+         "xi must leave S and E finite, and below 1e+150, got array([1.e+80, 1.e+00])"),
+    ],
+)  # fmt: skip
+def test_bad_input_gets_the_whole_sentence(make, error, sentence):
+    with pytest.raises(error) as caught:
+        make()
+    assert str(caught.value) == sentence
+
+
+def test_matrices_are_finite_and_below_a_limit_both_of_them():
+    for pencil in (
+        Pencil(lambda xi: [[xi]], lambda xi: [[1 + 0 * xi]], dim=1),
+        Pencil(lambda xi: [[1 + 0 * xi]], lambda xi: [[xi]], dim=1),
+    ):
+        S, E = pencil.matrices([3.0, 0.99e150])
+        assert {S[1].item(), E[1].item()} == {1, 0.99e150}
+        for xi in ([3.0, 1e150], [-1e150]):
+            with pytest.raises(ValueError, match=r"xi must leave S and E finite, and below 1e\+150"):
+                pencil.matrices(xi)
+    overflowing = Pencil(lambda xi: [[xi**3]], [[1]], dim=1)
+    with pytest.raises(ValueError, match="finite"):  # and no warning
+        overflowing.matrices([1.0, 1e149])
+
+
+@pytest.mark.parametrize("dim", [1, 2])
+def test_memory_is_limited_before_it_is_taken(monkeypatch, dim):
+    pencil = Pencil(np.diag([1.0, 2, 3]), np.eye(3), dim=dim)
+    monkeypatch.setattr(checks, "MAX_BYTES", 128 * 7 * 9)
+    assert pencil.matrices(np.ones(7) if dim == 1 else np.ones((2, 7)))[0].shape == (7, 3, 3)
+    with pytest.raises(
+        ValueError, match=r"^xi: the matrices of all wavevectors must fit into 0 GiB of memory, got shape"
+    ):
+        pencil.matrices(np.ones(8) if dim == 1 else np.ones((2, 8)))
+    room = 1 if dim == 1 else 2 * directions.SPECIAL * directions.FAN.size
+    monkeypatch.setattr(checks, "MAX_BYTES", 128 * 7 * 9 * room - 1)
+    sentence = "^k: all directions of its wavenumbers must fit into 0 GiB of memory, got shape "
+    with pytest.raises(ValueError, match=sentence + r"\(1, 7\)$"):
+        max_growth(pencil, np.ones((1, 7)))
+    monkeypatch.setattr(checks, "MAX_BYTES", 2 * 128 * 9 * room)
+    assert max_growth(pencil, np.ones((1, 1))).growth.shape == (1, 1)
+
+
+def test_the_largest_pencil():
+    pencil = Pencil(np.diag(np.arange(1.0, 13)), np.eye(12))
+    np.testing.assert_allclose(pencil.eigenvalues(1.0), -np.arange(1.0, 13), rtol=1e-14)
+
+
+# ---------------------------------------------------------------- how a symbol is called
+
+
+def test_a_symbol_that_serves_many_is_called_once_and_one_that_does_not_for_each():
+    calls = []
+
+    def spied(S):
+        def f(xi):
+            calls.append(np.shape(xi))
+            return S(xi)
+
+        return f
+
+    def many(xi):
+        return np.reshape(np.asarray(xi) ** 2 + 5, (*np.shape(xi), 1, 1))
+
+    xi = np.array([0.1, 2.0, 30.0])
+    one_for_all = Pencil(spied(many), [[1]], dim=1)
+    one_for_all.matrices(xi)
+    calls.clear()
+    np.testing.assert_array_equal(one_for_all.matrices(xi)[0].ravel(), xi**2 + 5)
+    assert calls == [(3,)]
+    # Of the right shape, but with numbers that are not those of one wavevector alone, if only by a little.
+    for wrong in (
+        lambda xi: many(xi) + 0.1 * np.max(xi),
+        lambda xi: 1e-3 * (many(xi) + np.max(xi)),
+        lambda xi: many(xi) * (1 + 1e-9 * np.max(xi)),
+    ):
+        expected = [wrong(x).item() for x in xi]
+        by_one = Pencil(spied(wrong), [[1]], dim=1)
+        by_one.matrices(xi)
+        calls.clear()
+        np.testing.assert_array_equal(by_one.matrices(xi)[0].ravel(), expected)
+        assert calls == [()] * 3
+        swapped = Pencil([[1]], spied(wrong), dim=1)
+        np.testing.assert_array_equal(swapped.matrices(xi)[1].ravel(), expected)
+
+
+def test_equations_are_real_if_both_matrices_are_conjugate_at_the_opposite_wavevector():
+    def real(S, E=1.0, dim=1):
+        return Pencil(
+            lambda xi: [[S(xi) if callable(S) else S]], lambda xi: [[E(xi) if callable(E) else E]], dim
+        ).is_real
+
+    assert real(lambda xi: xi**2 + 3j * xi**3 + 1)
+    assert real(lambda xi: xi**2 / 3 + 1j * np.sin(xi) * (1 + 1e-14j), lambda xi: 1 + 1j * xi)
+    assert real(lambda xi: 1j * xi[0] + xi[0] * xi[1], dim=2)
+    for S, E in (
+        (1 + 0.1j, 1), (1 + 1e-9j, 1), (1e-3j, 1), (lambda xi: xi, 1), (lambda xi: 1j * xi**2, 1), (1, 1 + 0.01j),
+        (1, lambda xi: 3 + xi),
+    ):  # fmt: skip
+        assert not real(S, E)
+    assert not real(lambda xi: 1j * xi[0] + xi[1], dim=2)
+
+
+def test_which_call_of_a_symbol_works_says_the_number_of_space_variables():
+    assert Pencil(EYE, EYE).dim == 1
+    assert Pencil(lambda xi: [[xi]], [[1]]).dim == 1
+
+    def nowhere(xi):
+        raise RuntimeError("not for any wavevector")
+
+    with pytest.raises(RuntimeError, match="not for any wavevector"):
+        Pencil(nowhere, [[1]])
+    xi_1, xi_2, xi = sympy.symbols("xi_1 xi_2 xi")
+    one = sympy.eye(1)
+    assert [Pencil(sympy.Matrix([[f]]), one).dim for f in (xi, xi_1, xi_2, xi_1 + xi_2, sympy.Integer(3))] == [
+        1, 2, 2, 2, 1
+    ]  # fmt: skip
+    with pytest.raises(
+        ValueError, match=r"^E must be a matrix in xi, or in xi_1 and xi_2, alone, got symbols xi, xi_1$"
+    ):
+        Pencil(one, sympy.Matrix([[xi + xi_1]]))
+    plane = Pencil(sympy.Matrix([[xi_1 + 2 * sympy.I * xi_2]]), sympy.Matrix([[2]]))
+    np.testing.assert_allclose(plane.eigenvalues([[1.0, 5.0], [3.0, -1.0]]), [[-0.5 - 3j], [-2.5 + 1j]])
+
+
+def test_eigenvalues_are_sorted_and_what_is_undetermined_comes_last():
+    pencil = Pencil(lambda xi: np.diag([xi, 3, -1, 0]), lambda xi: np.diag([xi - 1, 1, 1, 1]), dim=1)
+    np.testing.assert_allclose(pencil.eigenvalues([2.0, 0.5]), [[1, 0, -2, -3], [1, 1, 0, -3]], atol=1e-15)
+    np.testing.assert_allclose(pencil.eigenvalues(1.0), [1, 0, -3, np.nan], atol=1e-15)
+    assert growth(pencil, 1.0) == 1
+
+
+def test_without_time_derivatives_nothing_grows():
+    for dim, xi in ((1, np.ones(3)), (2, np.ones((2, 3)))):
+        pencil = Pencil(np.eye(2), np.zeros((2, 2)), dim=dim)
+        assert pencil.count == 0
+        np.testing.assert_array_equal(growth(pencil, xi), [-np.inf] * 3)
+        np.testing.assert_array_equal(max_growth(pencil, np.ones(3)).growth, [-np.inf] * 3)
+
+
+# ---------------------------------------------------------------- directions
+
+
+def test_the_angle_of_a_direction():
+    line = max_growth(Pencil(lambda xi: [[xi]], [[1]]), [[1.0, 2.0]])  # grows for xi < 0
+    assert (line.direction.tolist(), line.angle.tolist()) == ([[-1, -1]], [[np.pi, np.pi]])
+    line = max_growth(Pencil(lambda xi: [[-xi]], [[1]]), 3.0)
+    assert (line.direction, line.angle) == (1, 0)
+
+
+@pytest.mark.parametrize("towards", [0.0, 0.3, 2.0, np.pi, 4.0, 6.2])
+def test_one_sided_growth_in_the_plane_is_found_all_round(towards):
+    """u_t = -i d . grad u grows like xi . d, most of all for xi along d."""
+    c, s = np.cos(towards), np.sin(towards)
+    best = max_growth(Pencil(lambda xi: [[-(c * xi[0] + s * xi[1])]], [[1]], dim=2), [[1.0, 1e3], [2.0, 5.0]])
+    np.testing.assert_allclose(best.growth, [[1.0, 1e3], [2.0, 5.0]], rtol=1e-15)
+    np.testing.assert_allclose(np.exp(1j * best.angle), np.exp(1j * towards), rtol=1e-7)
+
+
+def test_a_sign_without_eigenvalues_is_not_the_best():
+    """(xi - 2) w = 0 and v_t = v (or -i v): at xi = 2 w is undetermined, at xi = -2 it is not."""
+    pencil = Pencil(lambda xi: np.diag([xi - 2, -1 + 0 * xi]), np.diag([0, 1]), dim=1)
+    best = max_growth(pencil, [1.0, 2.0])
+    np.testing.assert_allclose(best.growth, [1, 1])
+    assert best.direction.tolist() == [1, -1]
+    nowhere = Pencil(lambda xi: np.diag([xi**2 - 4, -1 + 0 * xi]), np.diag([0, 1]), dim=1)
+    assert np.isnan(max_growth(nowhere, 2.0).growth)
+
+
+def test_a_direction_without_eigenvalues_counts_as_lowest():
+    """w_x = 0 and v_t = v - v_yy: along y the unknown w is undetermined."""
+    pencil = Pencil(lambda xi: np.diag([xi[0], -1 - xi[1] ** 2]), np.diag([0, 1]), dim=2)
+    angle = np.array([[0.0, np.pi / 4]])
+    pencil_along = Pencil(lambda xi: np.diag([xi[1], -1 - xi[0] ** 2]), np.diag([0, 1]), dim=2)
+    rate, meeting = directions._rate_and_meeting(pencil_along, np.array([2.0]), angle)
+    np.testing.assert_allclose(rate, [[directions.LOWEST, 3]])
+    np.testing.assert_allclose(meeting, [[-directions.LOWEST, np.log(3)]])
+    best = max_growth(pencil, 10.0)
+    assert best.growth == pytest.approx(101, rel=1e-9)  # as near to y as can be
+    none = Pencil(np.eye(1), np.zeros((1, 1)), dim=2)
+    rate, meeting = directions._rate_and_meeting(none, np.ones(2), np.zeros((2, 3)))
+    np.testing.assert_array_equal(rate, np.full((2, 3), directions.LOWEST))
+    np.testing.assert_array_equal(meeting, np.zeros((2, 3)))
+    together = Pencil(-np.eye(2), np.eye(2), dim=2)
+    _, meeting = directions._rate_and_meeting(together, np.ones(1), np.zeros((1, 1)))
+    np.testing.assert_allclose(meeting, np.log(np.finfo(float).tiny))
+
+
+def test_of_too_few_local_maxima_the_first_is_repeated():
+    angle = np.tile(np.arange(6) * np.pi / 6, (3, 1))
+    f = np.array([[0.0, 3, 0, 5, 0, 1], [0, 3, 0, 0, 0, 0], [7, 7, 7, 7, 7, 7.0]])
+    peaks, spacing = directions._highest(angle, f, np.pi, 3)
+    np.testing.assert_allclose(peaks * 6 / np.pi, [[3, 1, 5], [1, 1, 1], [0, 1, 2]])
+    np.testing.assert_allclose(spacing, np.pi / 6)
+    peaks, _ = directions._highest(angle[:1], f[:1], np.pi, 2)
+    np.testing.assert_allclose(peaks * 6 / np.pi, [[3, 1]])
+    rounding = np.array([[1, 1 + 1e-12, 1, 1.5, 1, 1 + 1e-6]])
+    peaks, _ = directions._highest(angle[:1], rounding, np.pi, 6)
+    np.testing.assert_allclose(peaks * 6 / np.pi, [[3, 5]])
+    negative = np.array([[-9, -2, -9, -9, -3, -9.0]])
+    peaks, _ = directions._highest(angle[:1], negative, np.pi, 6)
+    np.testing.assert_allclose(peaks * 6 / np.pi, [[1, 4]])
+
+
+def test_local_maxima_of_random_scans_one_by_one():
+    """Higher than both neighbours, the circle closed, or as high as any; the highest first, the earlier of equals."""
+    random = np.random.default_rng(21)
+    for number in (1, 2, 3, 9):
+        angle = np.sort(random.uniform(0, np.pi, (12, 7)), axis=1)
+        f = random.integers(-3, 4, angle.shape).astype(float)
+        peaks, spacing = directions._highest(angle, f, np.pi, number)
+        expected = []
+        for row in f:
+            found = [n for n in range(7) if row[n] > max(row[n - 1], row[(n + 1) % 7]) or row[n] == row.max()]
+            expected.append(sorted(found, key=lambda n, row=row: -row[n])[:number])
+        width = min(number, max(map(len, expected)))
+        for x, found, top, wide in zip(angle, expected, peaks, spacing, strict=True):
+            found += found[:1] * (width - len(found))
+            np.testing.assert_array_equal(top, x[found])
+            beside = [max((x[n] - x[n - 1]) % np.pi, (x[(n + 1) % 7] - x[n]) % np.pi) for n in found]
+            np.testing.assert_allclose(wide, beside)
+
+
+def test_each_peak_is_followed_by_itself():
+    """Two wavenumbers and two peaks each, of width and height that differ, from places of their own."""
+    tops = np.array([[0.3, 1.2], [2.0, -0.5]])
+
+    def hills(pencil, k, angle):
+        nearest = np.abs(angle[:, :, None] - tops[:, None, :]).min(axis=2)
+        return 7 * k[:, None] - nearest
+
+    start = np.array([[0.32, 1.17], [2.04, -0.5]])
+    found = directions._followed(None, np.array([1.0, 5.0]), start, np.array([[0.1, 0.05], [0.05, 0.1]]), hills)
+    np.testing.assert_allclose(found, tops, atol=2e-15)
+    level = directions._followed(None, np.ones(2), start, 0.1, lambda *a: np.ones(a[2].shape))
+    np.testing.assert_array_equal(level, start)
+
+
+@pytest.mark.parametrize("towards", [1e-4, 0.70002, 3.1415, 4.00003])
+@pytest.mark.parametrize("power", [1, 2])
+def test_a_narrow_window_of_growth_is_found_wherever_it_is(towards, power):
+    """lambda = (d . xi)^power +- sqrt(eps^2 (d . xi)^2 - (n . xi)^2): 1 + eps along d, in a window eps wide."""
+    c, s, eps = np.cos(towards), np.sin(towards), 1e-5
+
+    def S(xi):
+        along, across = c * xi[0] + s * xi[1], c * xi[1] - s * xi[0]
+        return [[-(along**power), -((eps * along) ** 2 - across**2)], [-1, -(along**power)]]
+
+    best = max_growth(Pencil(S, np.eye(2), dim=2), 1.0)
+    assert best.growth == pytest.approx(1 + eps, abs=1e-10)
+    assert best.direction @ [c, s] * (1 if power == 1 else np.sign(best.direction @ [c, s])) == pytest.approx(1)

@@ -12,6 +12,7 @@ import pytest
 import sympy as sp
 
 from primer import BackwardHeat, Toy, growth_rates, linearise, verdict
+from primer.analysis.linear import read
 from primer.analysis.symbolic import pencil
 from primer.analysis.text import PDEError, parse
 from primer.schemes.grid import Grid
@@ -324,3 +325,133 @@ def test_numbers_at_the_edge_of_what_can_be_represented():
 def test_text_must_be_a_string(text):
     with pytest.raises(TypeError, match="string"):
         linearise(text)
+
+
+# ---------------------------------------------------------------- from the tree to the linearised system
+
+
+def test_a_system_names_its_unknowns_parameters_and_slopes():
+    system = read(TOY)
+    assert (system.text, system.unknowns, system.parameters, system.dim) == (TOY, ("u", "v"), ("eps",), 1)
+    assert system.slopes == (
+        {("u", (1, 0, 0)): 1, ("v", (0, 1, 0)): -1},
+        {("v", (1, 0, 0)): 1, ("u", (0, 0, 0)): -eps * v_xx, ("u", (0, 1, 0)): -1, ("v", (0, 0, 0)): 1,
+         ("v", (0, 2, 0)): -eps * u},
+    )  # fmt: skip
+    (slopes,) = read("u_tt = c*u_xyyt + u_x^2").slopes
+    assert slopes == {("u", (2, 0, 0)): 1, ("u", (1, 1, 2)): -sp.Symbol("c"), ("u", (0, 1, 0)): -2 * sp.Symbol("u_x")}
+
+
+@pytest.mark.parametrize(
+    ("text", "given", "unknowns", "parameters"),
+    [
+        ("w = b*u_x; u_t = w_x", (), ("u", "w"), ("b",)),  # those that evolve first
+        ("v_x = u; u_tt = v + pi*i*x*y*t", (), ("u", "v"), ()),
+        ("h_t + (h*u)_x = 0; (h*u)_t + (h*u^2 + g*h^2/2)_x = 0", (), ("h", "u"), ("g",)),  # u by a bracket with t
+        ("(a*u)_t = b*u_x", (), ("u",), ("a", "b")),  # no more than there are equations
+        ("u_t = (u*v)_x + c; u = v + c", (), ("u", "v"), ("c",)),  # v by a bracket
+        ("u_t = w; w = u_xx", (), ("u", "w"), ()),  # w by a constraint
+        ("u_t = a*w; w = u_xx", {"a": 1}, ("u", "w"), ("a",)),
+        ("u_t = (a*w)_x; w = u_xx", {"a": 1}, ("u", "w"), ("a",)),
+        ("u_t = a*u_xx", {"u": 1}, ("u",), ("a",)),  # differentiated by name, whatever is given
+    ],
+)
+def test_which_names_are_unknowns(text, given, unknowns, parameters):
+    system = read(text, given)
+    assert (system.unknowns, system.parameters) == (unknowns, parameters)
+
+
+@pytest.mark.parametrize(
+    ("text", "sentence"),
+    [
+        ("u_t = a*w; w = u_xx", "2 equations for 1 unknown (u): there must be as many of one as of the other"),
+        ("u_t = v_x", "1 equation for 2 unknowns (u, v): there must be as many of one as of the other"),
+        ("v_x = u; u_t = v; u = v", "3 equations for 2 unknowns (u, v): there must be as many of one as of the other"),
+        ("u = 3*v", "nothing is differentiated: derivatives are written u_t, v_xx, (u*v)_x"),
+    ],
+)
+def test_as_many_unknowns_as_equations(text, sentence):
+    with pytest.raises(PDEError) as caught:
+        read(text)
+    assert str(caught.value) == sentence
+
+
+@pytest.mark.parametrize(
+    ("text", "dim"),
+    [("u_t = u_x", 1), ("u_t = y*u_x", 2), ("u_t = u_xy", 2), ("u_t = (u^2)_y", 2), ("u_t = ky*y0*u_x", 1),
+     ("u_t = x*t*u", 1), ("u_ty = u", 2)],
+)  # fmt: skip
+def test_a_y_makes_two_space_variables(text, dim):
+    assert read(text).dim == dim
+
+
+NINES, AS = "9" * 60, "a" * 41
+
+
+@pytest.mark.parametrize(
+    ("text", "slope"),  # of -u
+    [
+        (f"u_t = {NINES}*u", sp.Integer(int(NINES))),
+        ("u_t = 1e300*u", sp.Integer(10) ** 300),
+        ("u_t = 1e-300*u", sp.Integer(10) ** -300),
+        ("u_t = 2.5e-1i*u", sp.I / 4),
+        ("u_t = u_zeta*u_z0*k_z*k_xz*u", sp.prod(sp.symbols("u_zeta u_z0 k_z k_xz"))),  # parameters, all of them
+        ("u_t = (0^2 + 1)*u", 1),
+        (f"u_t = {2**40 - 1}^100*u", sp.Integer(2**40 - 1) ** 100),
+        (f"u_t = ({2**20 - 1}/{2**19 + 1})^100*u", sp.Rational(2**20 - 1, 2**19 + 1) ** 100),
+        ("u_t = k^100*u", sp.Symbol("k") ** 100),
+        ("u_t = k^-100*u", sp.Symbol("k") ** -100),
+        ("u_t = k^(1/100)*u", sp.Symbol("k") ** sp.Rational(1, 100)),
+        ("u_t = (k^100)^10*u", sp.Symbol("k") ** 1000),
+        ("u_t = 1/(k^100)^10*u", sp.Symbol("k") ** -1000),
+        ("u_t = abs(k - 3)*u", sp.sqrt((sp.Symbol("k") - 3) ** 2)),
+        ("u_t = tanh(k)*u", sp.tanh(sp.Symbol("k"))),
+        ("u_t = k^m*u", sp.Symbol("k") ** sp.Symbol("m")),
+    ],
+)
+def test_expressions_up_to_the_limits(text, slope):
+    assert read(text).slopes == ({("u", (1, 0, 0)): 1, ("u", (0, 0, 0)): -slope},)
+
+
+@pytest.mark.parametrize(
+    ("text", "problem", "column"),
+    [
+        (f"u_t = {NINES}9*u", "a number with more digits, or a larger exponent, than is allowed", 6),
+        ("u_t = 2*1e301*u", "a number with more digits, or a larger exponent, than is allowed", 8),
+        ("u_t = 2*1E-301*u", "a number with more digits, or a larger exponent, than is allowed", 8),
+        ("u_t = u + u_xz", "a third space variable: there are x and y only", 10),
+        ("u_t = u + u_txyz", "a third space variable: there are x and y only", 10),
+        ("u_t = u + t_x", "t is an independent variable and cannot be differentiated", 10),
+        ("u_t = u_" + "x" * 13, "a derivative of order 13, above the 12 allowed", 6),
+        ("u_t = (3*u_" + "x" * 12 + ")_y", "a derivative of order 13, above the 12 allowed", 24),
+        ("u_t = 0^0*u", "division by zero", 7),
+        ("u_t = 0^a*u", "division by zero", 7),
+        ("u_t = 0^-2*u", "division by zero", 7),
+        (f"u_t = {2**40}^100*u", "a power that is too large", 19),
+        (f"u_t = ({2**20 - 1}/{2**19 + 1}*k)^-102*u", "a power that is too large", 24),
+        (f"u_t = {2**99}^(4001/100)*u", "a power that is too large", 36),
+        ("u_t = k^101*u", "a power that is too large", 7),
+        ("u_t = k^-101*u", "a power that is too large", 7),
+        ("u_t = k^(1/101)*u", "a power that is too large", 7),
+        ("u_t = (k^91)^11*u", "a power above the 1000 allowed", 12),
+        ("u_t = 3*(k^-91)^11*u", "a power above the 1000 allowed", 15),
+        ("u_t = u*tan(pi/2)", "a value that is not finite", 8),
+        ("u_t = u + 3/(a - a)", "division by zero", 11),
+    ],
+)
+def test_what_is_beyond_the_limits_is_shown_with_its_place(text, problem, column):
+    with pytest.raises(PDEError) as caught:
+        read(text)
+    assert str(caught.value) == f"{problem}\n    {text}\n    {' ' * column}^"
+
+
+def test_the_derivative_of_a_bracket_may_grow_to_some_length_only():
+    with pytest.raises(PDEError) as caught:
+        read("u_t = (sin(u)*cos(u)*tan(u)*exp(u))_xxxx")
+    assert str(caught.value).startswith("a derivative that grows too long\n    u_t = (sin")
+    assert str(caught.value).endswith("\n" + " " * 39 + "^")
+    (slopes,) = read("u_t = (x^2*u*t*k)_xxt").slopes
+    t, x, k = sp.symbols("t x k")
+    assert sp.expand(slopes["u", (0, 0, 0)] + 2 * k) == 0
+    assert sp.expand(slopes["u", (1, 2, 0)] + x**2 * t * k) == 0
+    assert sp.expand(slopes["u", (0, 1, 0)] + 4 * x * k) == 0

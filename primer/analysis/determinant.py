@@ -14,7 +14,7 @@ def determinant(entries, zero):
         longer: dict[frozenset, dict] = {}
         for columns, minor in minors.items():
             for c, entry in enumerate(row):
-                if c not in columns and entry and minor:
+                if c not in columns and entry:
                     sign = (-1) ** sum(other > c for other in columns)
                     _add_product(longer.setdefault(columns | {c}, {}), sign, entry, minor)
         minors = longer

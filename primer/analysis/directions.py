@@ -42,7 +42,7 @@ class MaxGrowth:
     @property
     def angle(self) -> Numbers:
         """The angle from the x-axis (radians), of shape s; in one space variable 0 or pi."""
-        x, y = self.direction if self.direction.ndim > self.k.ndim else (self.direction, 0 * self.direction)
+        x, y = self.direction if self.direction.ndim > self.k.ndim else (self.direction, np.zeros(self.k.shape))
         return np.arctan2(y, x)
 
 

@@ -34,7 +34,7 @@ def finite_eigenvalues(S, E, n):
     lam = np.full((len(S), n), np.nan, dtype=complex)
     solvable = n == S.shape[-1] and (np.abs(np.linalg.det(_scaled(E)[0])) > 1e-12).all()
     regular = np.full(len(S), True) if solvable else ~_singular(S, E)
-    if n and regular.any():
+    if n:
         S, E = S[regular], E[regular]
         found = _start(S, E, n, solvable)
         lam[regular] = _told_apart(S, E, _polished(S, E, found, np.ones(found.shape, dtype=bool)))
@@ -63,12 +63,15 @@ def _polished(S, E, lam, active):
         gap = now[:, :, None] - now[:, None, :]
         others = _inverse(gap).sum(axis=2)
         step = _inverse(newton - others) * active[rows]
-        lost[rows] |= np.abs(now - step) > LOST
-        lam[rows] = np.where(lost[rows], LOST * np.exp(1j * np.arange(now.shape[1])), now - step)
         size = np.abs(step)
+        settled = last[rows] <= 1e-7 * np.abs(now)
+        # Near a multiple eigenvalue a step at rounding level may go anywhere: one that has grown is not taken.
+        new = np.where(settled & (size > last[rows]), now, now - step)
+        lost[rows] |= np.abs(new) > LOST
+        lam[rows] = np.where(lost[rows], LOST * np.exp(1j * np.arange(now.shape[1])), new)
         # Stop at rounding level, or when a step no longer shrinks: a zero or a multiple eigenvalue has no better value.
-        done = (size <= 2 * EPS * np.abs(now)) | ((size > last[rows] / 2) & (last[rows] <= 1e-7 * np.abs(now)))
-        active[rows] &= ~(done | lost[rows] | (size == 0))
+        done = (size <= 2 * EPS * np.abs(now)) | (settled & (size > last[rows] / 2))
+        active[rows] &= ~(done | lost[rows])
         last[rows] = size
     lam[lost] = np.nan
     return lam
@@ -154,5 +157,6 @@ def _start(S, E, n, solvable):
         theta: np.ndarray = np.linalg.eigvals(np.linalg.solve(A, rows[..., :, None] * columns[..., None, :] * E))
         theta = np.take_along_axis(theta, np.argsort(-np.abs(theta), axis=1), axis=1)[:, :n]
         lam = mu[:, None] - 1 / np.where(theta == 0, TINY, theta)
-        mu = np.exp(0.7j) * np.maximum(2 * np.abs(lam).max(axis=1), 1e-8 * np.abs(mu))
+        largest = np.where(theta == 0, 0, np.abs(lam)).max(axis=1)  # those at infinity left out
+        mu = np.exp(0.7j) * np.maximum(2 * largest, 1e-8 * np.abs(mu))
     return lam

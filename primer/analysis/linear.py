@@ -3,7 +3,6 @@
 Each derivative is a symbol of its own (u, u_x, v_xx ...), so that linearising is differentiating by each of them.
 """
 
-from collections import Counter
 from dataclasses import dataclass
 
 import sympy as sp
@@ -42,7 +41,7 @@ class System:
 def read(text, given=()):
     """The :class:`System` of a text. ``given`` are names with values: unknowns only if differentiated by name."""
     equations = parse(text)
-    uses: Counter = Counter()  # (name, its own derivatives, those of the brackets around it): in the order of the text
+    uses: dict = {}  # (name, its own derivatives, those of the brackets around it): None, in the order of the text
     for equation in equations:
         for side in equation:
             _collect(side, "", uses)
@@ -56,7 +55,7 @@ def read(text, given=()):
 
 def _collect(node, around, uses):
     if node.kind == "name" and node.value not in CONSTANTS:
-        uses[*split_name(node.value), around] += 1
+        uses[*split_name(node.value), around] = None
     for operand in node.operands:
         _collect(operand, around + (node.value if node.kind == "derivative" else ""), uses)
 
@@ -117,7 +116,7 @@ class _Builder:
     def number(self, node):
         digits, imaginary = node.value
         _, _, exponent = digits.lower().partition("e")
-        if len(digits) > 60 or abs(int(exponent or 0)) > 300:
+        if len(digits) > 60 or abs(int(exponent or "0")) > 300:
             self.fail("a number with more digits, or a larger exponent, than is allowed", node)
         value = sp.Rational(digits)
         return value * sp.I if imaginary else value

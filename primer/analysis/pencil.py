@@ -90,7 +90,8 @@ class Pencil:
 
     @cached_property
     def _vectorised(self):
-        return {name: _serves_many(getattr(self, name), self.probe, self.size) for name in ("S", "E")}
+        functions = {name: f for name in ("S", "E") if callable(f := getattr(self, name))}
+        return {name: _serves_many(f, self.probe) for name, f in functions.items()}
 
     def matrices(self, xi: ArrayLike) -> tuple[np.ndarray, np.ndarray]:
         """(S, E) at wavevectors xi of shape s, or (2,) + s: complex arrays of shape s + (k, k)."""
@@ -200,10 +201,8 @@ def _moderate(values):
     return bool((np.abs(values) < _BEYOND).all())
 
 
-def _serves_many(f, xi, size):
+def _serves_many(f, xi):
     """Whether f gives the same matrices for many wavevectors at once as one by one."""
-    if not callable(f):
-        return True
     one_by_one = np.array([np.asarray(f(xi[..., j]), dtype=complex) for j in range(xi.shape[-1])])
     try:
         together = np.asarray(f(xi), dtype=complex)

@@ -5,15 +5,15 @@ import numpy as np
 
 from primer.analysis.symbol import Symbol
 
-DEGREES = (2, 4, 8)
+HALF_DEGREES = (1, 2, 4)  # the number of nodes on each side of zero
 NOISE = 1e-12  # relative error of the values of a pencil's entries, with something to spare
 DIGITS = 13  # kept of a coefficient, so that equal ones come out equal and the rest may count as exact
 
 
 def recovered(pencil):
-    """The :class:`Symbol` of a pencil: its coefficients, by interpolation at whole numbers; None if they do not fit."""
-    for degree in DEGREES:
-        node = np.arange(-(degree // 2), degree // 2 + 1.0)
+    """The :class:`Symbol` of a pencil: its coefficients, by interpolation between -1 and 1; None if they do not fit."""
+    for half in HALF_DEGREES:
+        node = np.arange(-half, half + 1) / half
         axes = np.meshgrid(*[node] * pencil.dim, indexing="ij")
         S, E = pencil.matrices(axes[0] if pencil.dim == 1 else np.stack(axes))
         inverse = np.linalg.inv(np.vander(node, increasing=True))
@@ -23,7 +23,7 @@ def recovered(pencil):
                 values = np.moveaxis(np.tensordot(inverse, values, axes=(1, axis)), 0, axis)
             tables.append(values if pencil.dim == 2 else values[:, None])
         if _fits(pencil, tables):
-            return _symbol(tables, pencil.dim)
+            return _symbol(tables, pencil)
     return None
 
 
@@ -38,17 +38,14 @@ def _fits(pencil, tables):
     return True
 
 
-def _symbol(tables, dim):
-    size = tables[0].shape[-1]
-    entries: list[list[dict]] = [[{} for _ in range(size)] for _ in range(size)]
+def _symbol(tables, pencil):
+    entries: list[list[dict]] = [[{} for _ in range(pencil.size)] for _ in range(pencil.size)]
     for n, table in enumerate(tables):
         for (a, b, r, c), value in np.ndenumerate(table):
-            # Rounding errors of the interpolation, and of the value itself.
-            parts = [
-                p if abs(p) > NOISE * max(abs(value), np.abs(table[..., r, c]).max()) else 0.0
-                for p in (value.real, value.imag)
-            ]
+            # Rounding errors of the interpolation, and of the values themselves.
+            least = NOISE * np.abs(table[..., r, c]).max()
+            parts = [p if abs(p) > least else 0.0 for p in (value.real, value.imag)]
             if any(parts):
                 number = mp.mpc(*(f"{p:.{DIGITS - 1}e}" for p in parts))
                 entries[r][c][n, a, b] = number / mp.mpc(0, 1) ** (a + b)
-    return Symbol(tuple(tuple(row) for row in entries), dim)
+    return Symbol(tuple(tuple(row) for row in entries), pencil.dim)

@@ -34,11 +34,8 @@ def common(p, q, zero):
     """The greatest common divisor of p and q by Euclid's algorithm, monic."""
     while q:
         _, rest = divided(p, q)
-        largest = max(abs(a) for a in p) * max(1, max(abs(a) for a in q) / abs(q[-1]))
+        largest = max(abs(a) for a in p) * max(abs(a) for a in q) / abs(q[-1])
         p, q = q, trimmed(rest, zero * largest)
-        if q:  # keep the sizes near one
-            size = max(abs(a) for a in q)
-            q = [a / size for a in q]
     return [a / p[-1] for a in p]
 
 
@@ -63,8 +60,6 @@ def _scaled_roots(p, zero):
     shared = common(p, derivative(p), zero)
     simple, _ = divided(p, shared)
     while len(simple) > 1:
-        if len(shared) == 1:
-            return found + [(z, multiplicity) for z in _simple_roots(simple)]
         again = common(simple, shared, zero)
         once, _ = divided(simple, again)
         found += [(z, multiplicity) for z in _simple_roots(once)]
@@ -77,7 +72,7 @@ def _simple_roots(p):
     if len(p) == 3:
         half, root = -p[1] / (2 * p[2]), mp.sqrt(p[1] ** 2 - 4 * p[0] * p[2]) / (2 * p[2])
         return [half + root, half - root]
-    return mp.polyroots(p[::-1], maxsteps=1000, extraprec=mp.mp.prec) if len(p) > 1 else []
+    return mp.polyroots(p[::-1], maxsteps=1000, extraprec=mp.mp.prec)
 
 
 def resultant(p, q):
@@ -94,7 +89,7 @@ def _resultant(p, q):
     nodes = range(1, (len(q) - 1) * degrees[0] + (len(p) - 1) * degrees[1] + 2)
     values, sizes = [], []
     for s in nodes:
-        rows = [[mp.polyval(c[::-1], s) for c in f] for f in (p, q)]
+        rows = [[mp.polyval(c[::-1], s) for c in f[::-1]] for f in (p, q)]
         values.append(_sylvester(*rows))
         sizes.append(max(map(abs, rows[0])) ** (len(q) - 1) * max(map(abs, rows[1])) ** (len(p) - 1))
     if all(abs(v) <= ZERO * s for v, s in zip(values, sizes, strict=True)):
@@ -105,7 +100,7 @@ def _resultant(p, q):
 
 
 def _sylvester(p, q):
-    """The determinant of the Sylvester matrix, by elimination."""
+    """The determinant of the Sylvester matrix, by elimination; the leading coefficients first."""
     m, n = len(p) - 1, len(q) - 1
     rows = [[mp.mpc(0)] * r + list(p) + [mp.mpc(0)] * (n - 1 - r) for r in range(n)]
     rows += [[mp.mpc(0)] * r + list(q) + [mp.mpc(0)] * (m - 1 - r) for r in range(m)]

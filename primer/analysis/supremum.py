@@ -45,7 +45,7 @@ def supremum(symbol, law, real):
             best = _followed(pencil, s[n], angle[m], s[1] - s[0], np.pi / angles)
             values += _sharpened(symbol, *best)
             followed += 1
-    values += _poles(symbol, real) if symbol.dim == 1 else []
+    values += _poles(symbol) if symbol.dim == 1 else []
     value, where = max(values, key=lambda item: item[0])
     tiny = 1e-14 * np.abs(np.nan_to_num(pencil.eigenvalues(_wavevector(symbol.dim, 0.0, 0.1)))).max(initial=0)
     return (0.0 if abs(value) <= tiny else value), where
@@ -84,7 +84,7 @@ def _followed(pencil, s, angle, width, turn):
     return s, angle
 
 
-def _poles(symbol, real):
+def _poles(symbol):
     """Wavenumbers, in one space variable, at which a branch goes to +infinity: its time derivative drops out there."""
     top = max(n for n, _, _ in symbol.determinant)
     leading = {a: c for (n, a, _), c in symbol.determinant.items() if n == top}
@@ -114,7 +114,7 @@ def exact_growth(symbol, xi):
     """max Re lambda at one wavevector from the roots of det M, with many digits; -inf if det M vanishes."""
     with mp.workdps(PRECISE):
         xi = [mp.mpf(x) for x in np.atleast_1d(xi)] + [mp.mpf(1)]
-        terms = ((n, c * xi[0] ** a * (xi[1] ** b if b else 1)) for (n, a, b), c in symbol.determinant.items())
+        terms = ((n, c * xi[0] ** a * xi[1] ** b) for (n, a, b), c in symbol.determinant.items())
         p = collected(terms)
         if max(p, default=0) == 0:
             return -np.inf
