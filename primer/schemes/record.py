@@ -15,7 +15,7 @@ _SMALLEST = float(np.finfo(np.float32).tiny)  # a smaller step would be 0 in sin
 MAX_WORK = 10**13  # grid points times steps: a run of more, which takes hours, is refused before it starts
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Plan:
     """What :func:`primer.ftcs` was asked for, checked, in whole steps; see there for the arguments."""
 
