@@ -343,6 +343,11 @@ def test_a_double_zero_of_N_at_the_touching_point_is_a_knife_edge():
         lead = leading(c)
         assert (lead.exponent, lead.x, lead.ill_posed, lead.limit) == (pytest.approx(2 / 3), -B, True, np.inf)
         assert fastest(c, 1e9)[0] / 1e6 == pytest.approx(lead.coefficient, rel=1e-2)
+    c = replace(states(0.75, 1.0, -0.375, A=1.0, C=-0.75, Gamma=0.0625), t=2 * one)  # Delta = x^2, N = -x(1 + ...)
+    lead = leading(c)
+    np.testing.assert_array_equal(dispersion(c).Delta, [0, 0, 1])
+    assert (lead.exponent, lead.x) == (pytest.approx(2 / 3), 0)
+    assert fastest(c, 1e9)[0] / 1e6 == pytest.approx(lead.coefficient, rel=1e-2)
     still = leading(states(0.5, 0.0, 0.0))  # N = 0 for all x
     assert (still.exponent, still.ill_posed, still.limit) == (0, False, 0)
 
@@ -351,16 +356,18 @@ def test_an_incompressible_law_at_infinity():
     """n = A/t: growth t/R [(1 - n) T^2 - n] at x = -T. Neutral, that is 0; from |B| = 1 on unbounded, at x = -1/B."""
     B, A, t = np.array([0.6, -0.6, 1.25, -1.25]), np.array([0.1, 0.4, 0.3, 0.3]), np.array([1.0, 2, 3, 4])
     one = np.ones(4)
-    c = Coefficients(A, B, 0 * one, 0 * one, t, one, 0 * one, 0 * one, one, 0.5 * one, 2 * one, True)
+    c = Coefficients(A, B, 0 * one, 0 * one, t, one, 0 * one, 0 * one, one, 0.5 * one, 3 * one, True)
     lead, T = leading(c), 1 / 3  # tan(asin(0.6)/2)
-    np.testing.assert_allclose(lead.coefficient[:2], [0.9 * T**2 - 0.1, 2 * (0.8 * T**2 - 0.2)], atol=1e-15)
+    np.testing.assert_allclose(
+        lead.coefficient[:2], [(0.9 * T**2 - 0.1) / 1.5, 2 / 1.5 * (0.8 * T**2 - 0.2)], atol=1e-15
+    )
     np.testing.assert_array_equal(lead.limit, [-np.inf, -np.inf, np.inf, np.inf])
     np.testing.assert_allclose(lead.x, [-T, T, -0.8, 0.8], rtol=1e-14)
     assert (lead.coefficient[2:].tolist(), lead.exponent.tolist()) == ([np.inf] * 2, [2] * 4)
     np.testing.assert_array_equal(lead.ill_posed, [False, False, True, True])
     growing = leading(replace(c, A=0.5 * A))
     assert (growing.coefficient[0], growing.limit[0], growing.ill_posed[0]) == (
-        pytest.approx(0.95 * T**2 - 0.05), np.inf, True,
+        pytest.approx((0.95 * T**2 - 0.05) / 1.5), np.inf, True,
     )  # fmt: skip
     still = leading(replace(c, A=0 * one, B=0 * one))  # no friction at all: neutral
     assert (still.limit.tolist(), still.ill_posed.tolist(), still.x.tolist()) == ([0] * 4, [False] * 4, [0] * 4)
