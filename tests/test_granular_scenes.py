@@ -3,6 +3,7 @@
 import json
 import math
 
+import mpmath
 import numpy as np
 import pytest
 from scipy.linalg import expm
@@ -264,6 +265,14 @@ def test_the_neutral_stress_ratio_solves_its_quartic_and_is_the_largest_root():
         beyond = T * np.linspace(1.0001, 4, 200)[:, None]
         assert (beyond**2 * (2 * beyond - s) ** 2 > 16 * (mu + s - beyond) * (2 * beyond - mu - s)).all()
     assert np.shape(neutral_stress_ratio(BEADS, 0.1)) == ()
+    I = np.geomspace(1e-3, 10, 200)
+    for T, mu, s in zip(neutral_stress_ratio(BEADS, I), BEADS.mu(I), I * BEADS.dmu(I), strict=True):
+        with mpmath.workdps(40):  # all digits
+            q, s = mpmath.mpf(float(mu)) + mpmath.mpf(float(s)), mpmath.mpf(float(s))
+            exact = mpmath.findroot(lambda T, q=q, s=s: T**2 * (2 * T - s) ** 2 - 16 * (q - T) * (2 * T - q), float(T))
+            assert abs(T / exact - 1) < 1e-15
+    steep = neutral_stress_ratio(MuI(0.98, 1.94, 0.73), np.array([1e-3, 10.0]))
+    assert np.isnan(steep).tolist() == [False, True]  # mu = 1.88: the two roots have met and gone
 
 
 def test_the_modes_of_the_noise_one_by_one():
