@@ -179,3 +179,24 @@ def test_without_a_folder_to_write_the_loop_is_compiled_all_the_same(monkeypatch
 
     monkeypatch.setattr(numba, "njit", nowhere)
     assert jit(lambda x: x + 1)(2) == 3
+
+
+def test_a_block_that_is_halted_stands_still_and_its_runs_are_interrupted():
+    from primer.schemes.block import Block
+    from primer.schemes.record import plan
+
+    asked = plan(16, 0.01, 1.0, 10, (0.0, 0.5), None, 1e3, np.float64, None)
+    block = Block(asked, [Toy(1.5), Toy(0.5)], 8)
+    block.halted = True
+    block.march()
+    runs = list(block.runs(interrupted=True))
+    assert [(run.problem, run.stop, run.t.tolist()) for run in runs] == [
+        (Toy(1.5), Stop.INTERRUPTED, [0.0]),
+        (Toy(0.5), Stop.INTERRUPTED, [0.0]),
+    ]
+    for run in runs:
+        np.testing.assert_array_equal(run.final, run.problem.initial(run.x))
+        assert list(run.snapshots) == [0.0]
+    block.halted = False
+    block.march()
+    assert_same_run(list(block.runs())[1], ftcs(Toy(0.5), 16, 0.01, 1.0, 10, (0.0, 0.5)))

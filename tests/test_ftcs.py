@@ -498,3 +498,11 @@ def test_a_log_keeps_what_it_is_shown_and_ends_with_the_last_state():
     assert not log.running
     assert log.run(toy, state, True).stop is Stop.BLEW_UP
     np.testing.assert_array_equal(log.run(toy, state, False).dist, [1.0, 11.0])
+
+
+def test_a_run_is_shown_without_its_arrays():
+    run = ftcs(Toy(1.5), 8, 0.5, 1.0, seed=(1, 0.0))
+    assert repr(run) == (
+        f"Run(problem={Toy(1.5)!r}, n=8, dt=0.5, t_first_negative=None, stop={Stop.REACHED_END!r}, t_stop=1.0, "
+        f"seed={Seed(1, 0.0)!r}, blow_up_at=1000.0)"
+    )

@@ -265,6 +265,20 @@ def test_the_maximum_of_a_quotient_of_quadratics_of_every_kind(low, high):
     assert (np.abs(at(n, x) / at(d, x) - value) <= 1e-14 * size).all()
 
 
+def test_a_quotient_without_a_turning_point_is_largest_at_an_end():
+    """Real zeros that interlace leave (n/d)' without any: d = (r - x)(x - s), n with one zero between."""
+    rng = np.random.default_rng(18)
+    r, s, u = rng.uniform(1.01, 3, 300), -rng.uniform(1.01, 3, 300), rng.uniform(-1, 1, 300)
+    w = np.where(rng.random(300) < 0.5, r, s) * rng.uniform(1.01, 4, 300)
+    sign = rng.choice([-1.0, 1.0], 300)
+    n, d = sign * np.array([u * w, -u - w, 1 + 0 * u]), np.array([-r * s, r + s, -1 + 0 * r])
+    value, x = quotient_maximum(n, d)
+    ends = np.array([at(n, end) / at(d, end) for end in (-1.0, 1.0)])
+    np.testing.assert_allclose(value, ends.max(axis=0), rtol=1e-13)
+    np.testing.assert_array_equal(x, np.where(ends[0] > ends[1], -1.0, 1.0))
+    assert set(x) == {-1, 1}
+
+
 def test_where_the_denominator_vanishes_there_is_no_quotient():
     """(2 + x)/(1 - x^2): both ends are left out, and x = -2 -+ sqrt(3) are where it turns."""
     n, d = ([np.array([v]) for v in row] for row in ((2.0, 1.0, 0.0), (1.0, 0.0, -1.0)))

@@ -266,6 +266,8 @@ def test_the_incompressible_criterion_at_its_edges():
     assert (one.n, one.B, one.C, one.growth, one.well_posed) == (0, 1, 1, np.inf, False)
     minus = incompressible_criterion(Friction(lambda I: 1 + 0 * I, lambda I: 4 + 0 * I), 1.0)
     assert (minus.n, minus.B, minus.growth, minus.well_posed) == (4, -1, np.inf, False)
+    beyond = incompressible_criterion(Friction(lambda I: 1.25 + 0 * I, lambda I: 5 + 0 * I), 1.0)
+    assert (beyond.B, beyond.growth, beyond.well_posed) == (-1.25, np.inf, False)
     steep = incompressible_criterion(Friction(lambda I: 0.4 * I**3, lambda I: 1.2 * I**2), 1.0)  # n = 3
     assert pytest.approx(-0.2, rel=1e-14) == steep.B
     assert steep.growth == pytest.approx(-2 * np.tan(np.arcsin(0.2) / 2) ** 2 - 3, rel=1e-14)

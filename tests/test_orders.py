@@ -334,3 +334,11 @@ def test_what_is_no_space_or_time_is_named(space):
     ):
         with pytest.raises(TypeError, match=r"^time must be a RungeKutta step such as RK4 or RK8, got 4"):
             call()
+
+
+def test_a_march_and_a_step_are_shown_without_their_arrays():
+    run = march_lines(Toy(1.5), 4, 0.5, 1.0)
+    assert repr(run) == f"Lines(problem={Toy(1.5)!r}, n=4, dt=0.5, t=1.0, time={RK4!r})"
+    assert repr(RK4) == "RungeKutta(name='RK4', order=4, reach=2.6)"
+    for array in RK8.table:
+        assert not array.flags.writeable
