@@ -344,7 +344,7 @@ def test_a_double_zero_of_N_at_the_touching_point_is_a_knife_edge():
     one = np.ones(())
 
     def states(B, Y_phi, f_phi, A=0.0, C=None, Gamma=1.0):
-        values = (A, B, B if C is None else C, Gamma, 1.0, 1.0, Y_phi, f_phi, 1.0, 0.6, 1.0)
+        values = (A, B, B if C is None else C, Gamma, 2.0, 1.0, Y_phi, f_phi, 1.5, 0.6, 1.7)
         return Coefficients(*(v * one for v in values))
 
     for B, Y_phi, f_phi in ((1.0, 0.0, 0.3), (-1.0, 0.0, 0.3), (0.0, 0.0, 0.3)):
@@ -357,7 +357,7 @@ def test_a_double_zero_of_N_at_the_touching_point_is_a_knife_edge():
         lead = leading(c)
         assert (lead.exponent, lead.x, lead.ill_posed, lead.limit) == (pytest.approx(2 / 3), -B, True, np.inf)
         assert fastest(c, 1e9)[0] / 1e6 == pytest.approx(lead.coefficient, rel=1e-2)
-    c = replace(states(0.75, 1.0, -0.375, A=1.0, C=-0.75, Gamma=0.0625), t=2 * one)  # Delta = x^2, N = -x(1 + ...)
+    c = states(0.75, 1.0, -0.25, A=1.0, C=-0.75, Gamma=0.0625)  # Delta = x^2, N = -x(1 + ...)
     lead = leading(c)
     np.testing.assert_array_equal(dispersion(c).Delta, [0, 0, 1])
     assert (lead.exponent, lead.x) == (pytest.approx(2 / 3), 0)
