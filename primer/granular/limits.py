@@ -92,7 +92,7 @@ def _compressible(c):
     with np.errstate(divide="ignore", invalid="ignore"):
         limit, x3 = _bounded_limit(c, d, sign, touching, x0)
         one = np.sqrt(-N0 / (c.rho * T0))
-        third = np.cbrt(c.phi * slope**2 / (4 * c.rho * T0 * sign * (c.t - c.A)))
+        third = np.cbrt(c.phi * slope**2 / (4 * c.rho * T0 * (c.t - c.A)))
     cases = [quadratic, linear, drifting, lost]
     return Leading(
         exponent=np.select(cases, [2.0, 1.0, 2 / 3, np.nan], 0.0)[()],
