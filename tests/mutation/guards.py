@@ -67,9 +67,8 @@ def guards(known, file, first, last, cap):
         files = [lines for other, lines in known["lines"].items() if other.startswith(folder)]
         near = {f"{n} {k}": tests for n, lines in enumerate(files) for k, tests in lines.items()}
     elif name in CALLER:
-        near = {f"caller {k}": tests for k, tests in near.items()} | known["lines"].get(
-            file, {}
-        )  # those in plain Python
+        plain = known["lines"].get(file, {})
+        near = {f"caller {k}": tests for k, tests in near.items()} | plain
     by_file = {test for tests in near.values() for test in tests}
     by_file |= {test for test in known["seconds"] if test.endswith(HOUSE)}
     by_line = {test for k in range(first, last + 1) for test in near.get(str(k), ())}
