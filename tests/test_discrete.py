@@ -9,7 +9,7 @@ import pytest
 
 from primer import BackwardHeat, Toy, ftcs
 from primer.schemes.discrete import amplification, discrete_steady, dist_floor
-from primer.schemes.grid import CENTRAL, Grid
+from primer.schemes.grid import CENTRAL, Grid, grids
 
 
 @pytest.mark.parametrize("n", [4, 9, 30, 100])
@@ -131,3 +131,66 @@ def test_at_eps_0_the_scheme_is_unstable_just_above_dt_h2():
     S = Toy(1.0, eps=0).symbol(xi, 1.0, multiplier=grid.multiplier)
     for ratio, stable in ((0.99, True), (1.01, False)):
         assert bool(np.abs(amplification(S, ratio * grid.h**2)).max() <= 1 + 1e-14) is stable
+
+
+@pytest.mark.parametrize(
+    ("symbol", "error", "said"),
+    [
+        ("x", TypeError, "symbol must be an array of numbers, got 'x'"),
+        ([1.0, 2.0], ValueError, "symbol must have shape (..., m, m), got (2,)"),
+        (np.ones((2, 3)), ValueError, "symbol must have shape (..., m, m), got (2, 3)"),
+        (np.ones((3, 0, 0)), ValueError, "symbol must have shape (..., m, m), got (3, 0, 0)"),
+        ([[np.inf]], ValueError, "symbol must be finite everywhere, got [[inf]]"),
+    ],
+)
+def test_a_symbol_is_an_array_of_square_matrices(symbol, error, said):
+    with pytest.raises(error) as caught:
+        amplification(symbol, 0.1)
+    assert str(caught.value) == said
+
+
+def test_factors_come_with_the_largest_first():
+    S = np.array([np.diag([-3.0, 0.5, 1.0]), np.diag([1.0, -100.0, 0.0])])
+    np.testing.assert_allclose(amplification(S, 0.1), [[1.1, 1.05, 0.7], [-9, 1.1, 1]], rtol=1e-14)
+    np.testing.assert_allclose(amplification([[2.0]], 0.5), [2.0])
+    assert amplification(S, 0.1).dtype == complex
+
+
+def test_a_grid_takes_fields_of_any_shape_and_names_what_it_cannot_take():
+    grid = Grid(6)
+    f = np.random.default_rng(0).normal(size=(2, 3, 6))
+    for m in (1, 2):
+        both = grid.derivative(f, m)
+        np.testing.assert_array_equal(both[1, 2], grid.derivative(f[1, 2], m))
+        wave = f + 1j * f[::-1]
+        np.testing.assert_allclose(grid.derivative(wave, m), both + 1j * both[::-1], atol=1e-13)
+    np.testing.assert_array_equal(grid.derivative([0, 1, 0, 0, 0, 0], 1), np.array([1, 0, -1, 0, 0, 0]) / (2 * grid.h))
+    for m in (0, 3):
+        for call in (lambda m=m: grid.derivative(f, m), lambda m=m: grid.multiplier(1.0, m)):
+            with pytest.raises(ValueError, match=f"m must be an integer >= 1 and <= 2, got {m}"):
+                call()
+    with pytest.raises(ValueError, match="xi must be finite"):
+        grid.multiplier(np.inf, 1)
+    with pytest.raises(ValueError, match=r"f must have shape \(..., 6\) on this grid, got \(\)"):
+        grid.derivative(3.0, 1)
+    assert Grid(4).n == 4
+    assert Grid(10**7).n == 10**7
+    with pytest.raises(ValueError, match=r"n must be an integer <= 1e.07 to fit into memory, got 10000001"):
+        Grid(10**7 + 1)
+
+
+def test_grid_sizes_in_a_row_are_each_checked_under_their_name():
+    assert grids("ns", (4, 10**7, np.int64(5))) == (4, 10**7, 5)
+    assert all(type(n) is int for n in grids("ns", (4, np.int64(5))))
+    for ns, said in (
+        ((4, 3), "ns must be an integer >= 4, got 3"),
+        ((10**7 + 1, 4), "ns must be integers <= 1e+07 to fit into memory, got 10000001"),
+    ):
+        with pytest.raises(ValueError, match="ns must be") as error:
+            grids("ns", ns)
+        assert str(error.value) == said
+
+
+def test_the_weighted_sum_is_scaled_once():
+    for m in (1, 2):
+        assert CENTRAL[m].scale(0.1) == 1 / ((2 if m == 1 else 1) * (0.1 if m == 1 else 0.1 * 0.1))

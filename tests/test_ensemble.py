@@ -179,3 +179,47 @@ def test_without_a_folder_to_write_the_loop_is_compiled_all_the_same(monkeypatch
 
     monkeypatch.setattr(numba, "njit", nowhere)
     assert jit(lambda x: x + 1)(2) == 3
+
+
+def test_a_block_that_is_halted_stands_still_and_its_runs_are_interrupted():
+    from primer.schemes.block import Block
+    from primer.schemes.record import plan
+
+    asked = plan(16, 0.01, 1.0, 10, (0.0, 0.5), None, 1e3, np.float64, None)
+    block = Block(asked, [Toy(1.5), Toy(0.5)], 8)
+    block.halted = True
+    block.march()
+    runs = list(block.runs(interrupted=True))
+    assert [(run.problem, run.stop, run.t.tolist()) for run in runs] == [
+        (Toy(1.5), Stop.INTERRUPTED, [0.0]),
+        (Toy(0.5), Stop.INTERRUPTED, [0.0]),
+    ]
+    for run in runs:
+        np.testing.assert_array_equal(run.final, run.problem.initial(run.x))
+        assert list(run.snapshots) == [0.0]
+    block.halted = False
+    block.march()
+    assert_same_run(list(block.runs())[1], ftcs(Toy(0.5), 16, 0.01, 1.0, 10, (0.0, 0.5)))
+
+
+def test_a_look_takes_the_snapshots_of_its_step_and_no_others():
+    from primer.schemes import kernel
+
+    look = getattr(kernel._look, "py_func", kernel._look)
+    u, v, u_inf, step, none = np.arange(1.0, 5), np.full(4, 0.1), np.zeros(4), 7, -np.ones((3, 2, 4, 1))
+    for shot_steps, before, after in (([5, 7, 7], 1, 3), ([7, 7, 9], 0, 2), ([3, 4, 9], 2, 2), ([1, 2, 3], 3, 3)):
+        clock, shots = np.array([[0], [-1], [0], [before]]), np.concatenate([none, none[:1]])
+        records = np.zeros((2, 1, 1))
+        again, _ = look(
+            u, v, u_inf, 0, 1.0, 1e-9, 10.0, 1e-5, step, 10**6, clock, *records, np.array(shot_steps), shots
+        )  # fmt: skip
+        assert clock[:, 0].tolist() == [7, -1, 0, after]
+        for place in range(4):
+            taken = before <= place < after
+            np.testing.assert_array_equal(shots[place, :, :, 0], [u, v] if taken else none[0, :, :, 0])
+        assert again == (9 if 9 in shot_steps else 10**6)
+    clock = np.array([[0], [-1], [0], [0]])
+    look(u - 2, v, u_inf, 0, 1.0, 1e-9, 1.5, 1e-5, 6, 3, clock, *(many := np.zeros((2, 4, 1))), np.array([9]), shots)
+    assert clock[:, 0].tolist() == [6, 6, 1, 0]  # u <= 0, and beyond 1.5
+    np.testing.assert_allclose(many[:, :, 0], [[0, 0, 4.01, 0], [0, 0, -1, 0]])
+    np.testing.assert_array_equal(shots[-1, :, :, 0], [u - 2, v])

@@ -15,6 +15,7 @@ from transcription import dist, march
 import primer.schemes.ftcs as scheme
 from primer import BackwardHeat, Run, Seed, Stop, Toy, ftcs
 from primer.compiled import _say, compiled
+from primer.schemes import record
 from primer.schemes.discrete import dist_floor
 from primer.schemes.grid import Grid
 from primer.schemes.record import plan
@@ -365,3 +366,143 @@ def test_bad_input_gets_one_sentence(options, error, sentence):
         ftcs(options.pop("problem", Toy(1.5)), **options)
     assert str(caught.value).startswith(sentence)
     assert "\n" not in str(caught.value)
+
+
+def a_plan(n=16, dt=0.01, t_end=1.0, record_every=None, snapshots=(), seed=None, blow_up_at=1e3, **numbers):
+    return plan(
+        n, dt, t_end, record_every, snapshots, seed, blow_up_at, **{"dtype": np.float64, "digits": None, **numbers}
+    )
+
+
+def test_which_runs_are_for_the_compiled_loop(monkeypatch):
+    """Toy systems in machine numbers, where the compiler is loaded already or the run is long enough to be worth it."""
+    monkeypatch.setattr(scheme, "compiled", lambda module: object())
+    monkeypatch.delitem(sys.modules, scheme.KERNEL, raising=False)
+    long, short = a_plan(2**10, 1.0, 2.0**9 + 1), a_plan(2**10, 1.0, 2.0**9)  # 2^19 points and no more is short
+    assert scheme._compiles(Toy(1.5), long)
+    assert not scheme._compiles(Toy(1.5), short)
+    monkeypatch.setitem(sys.modules, scheme.KERNEL, scheme)
+    assert scheme._compiles(Toy(1.5), short)
+    assert scheme._compiles(Toy(1.5), a_plan(dtype=np.float32))
+    assert not scheme._compiles(Toy(1.5), a_plan(dtype=np.longdouble))
+    assert not scheme._compiles(Toy(1.5), a_plan(digits=20))
+    assert not scheme._compiles(BackwardHeat(), short)
+    assert not scheme._compiles(Interrupting(1.5), short)
+    monkeypatch.setattr(scheme, "compiled", lambda module: None)
+    assert not scheme._compiles(Toy(1.5), long)
+
+
+def test_a_plan_in_whole_steps():
+    asked = a_plan(t_end=1.004, snapshots=[0.5, 0.0, 1.004, 0.5, 0.014], record_every=10)
+    assert (asked.steps, asked.every, asked.times) == (100, 10, (0.0, 0.014, 0.5, 1.004))
+    assert asked.shot_steps.tolist() == [0, 1, 50, 100]
+    assert a_plan(t_end=100.0).every == 10
+    assert a_plan(t_end=19.99).every == 1
+    assert a_plan(t_end=20.0).every == 2
+    assert a_plan(t_end=0.0).every == 1
+    assert a_plan(record_every=101).every == a_plan(record_every=10**9).every == 101
+    assert a_plan(record_every=100).every == 100
+    assert a_plan(seed=(8, 1.0)).seed == Seed(8, 1.0, "u", -math.pi / 4)
+    assert a_plan(seed=(3, 1.0, "v", 0.5)).seed == Seed(3, 1.0, "v", 0.5)
+    assert a_plan(blow_up_at=np.finfo(float).max ** 0.5).blow_up_at == np.finfo(float).max ** 0.5
+    for seed in ((9, 1.0), Seed(9, 1.0)):
+        with pytest.raises(ValueError, match=r"^seed mode must be an integer <= 8, got 9$"):
+            a_plan(seed=seed)
+    for seed in ((), (1,), (1, 1.0, "u", 0.0, 0.0), 3, "u"):
+        with pytest.raises(
+            TypeError, match=r"^seed must be a Seed, or its .mode, amplitude, field. as a tuple, or None, got"
+        ):
+            a_plan(seed=seed)
+    least = float(np.finfo(np.float32).tiny)
+    assert a_plan(dt=least, t_end=least).steps == 1
+    with pytest.raises(ValueError, match=r"^dt must be >= 1.2e-38, got "):
+        a_plan(dt=least / 2, t_end=least)
+    with pytest.raises(TypeError, match="snapshots must be a sequence of times, got 3"):
+        a_plan(snapshots=3)
+
+
+def test_a_seed_says_what_is_wrong_with_it():
+    assert Seed(0, 1.0)(0.0) == pytest.approx(math.sqrt(0.5))
+    for arguments, error, said in (
+        ((-1, 1.0), ValueError, "seed mode must be an integer >= 0, got -1"),
+        ((1, np.inf), ValueError, "seed amplitude must be a finite number, got inf"),
+        ((1, 1.0, "u", np.nan), ValueError, "seed phase must be a finite number, got nan"),
+        ((1, 1.0, 3), TypeError, "seed field must be the name of a field, such as 'u', got 3"),
+    ):
+        with pytest.raises(error) as caught:
+            Seed(*arguments)
+        assert str(caught.value) == said
+
+
+def test_what_a_run_keeps_is_counted_before_it_starts(monkeypatch):
+    """Three numbers a record, and (snapshots + 12) states, of 16 bytes each or as many as the digits take."""
+    for numbers, size in (
+        ({}, 16),
+        ({"digits": 30}, 128 - int(math.log2(10.0**-30) - 1)),
+        ({"digits": 9999}, 128 - int(math.log2(1e-300))),
+    ):
+        for members in (1, 3):
+            asked = a_plan(t_end=1.0, record_every=10, snapshots=(0.1, 0.5), **numbers)
+            if numbers.get("digits") == 30:
+                size = 128 - int(math.log2(asked.numbers.epsilon))
+            kept = size * members * (3 * 11 + (2 + 12) * 2 * 16)
+            monkeypatch.setattr(record, "MAX_BYTES", kept)
+            asked.refuse_if_large(2, members)
+            monkeypatch.setattr(record, "MAX_BYTES", kept - 1)
+            with pytest.raises(ValueError, match="record_every") as error:
+                asked.refuse_if_large(2, members)
+            assert str(error.value) == (
+                "record_every, snapshots and n must let all runs fit into 0 GiB, "
+                f"got {members} with 11 records, 2 snapshots and n = 16"
+            )
+    monkeypatch.setattr(record, "MAX_BYTES", 16 * (3 * 11 + 12 * 2 * 16))
+    a_plan(record_every=10).refuse_if_large(2)  # one member, unless said otherwise
+    monkeypatch.undo()
+    with pytest.raises(ValueError, match="fit into 2 GiB, got 1 with"):
+        a_plan(n=10**7).refuse_if_large(2)
+
+
+def test_ten_million_million_points_times_steps_are_the_most():
+    a_plan(10**6, 1.0, 1e7, 10**6).refuse_if_large(2)
+    with pytest.raises(ValueError, match="dt, t_end") as error:
+        a_plan(10**6, 1.0, 1e7 + 1, 10**6).refuse_if_large(2)
+    assert str(error.value) == (
+        "dt, t_end and n must be such that n t_end/dt <= 1e+13 (more takes too long), "
+        "got dt = 1, 10000001 steps and n = 1000000"
+    )
+
+
+def test_a_log_keeps_what_it_is_shown_and_ends_with_the_last_state():
+    toy, asked = Toy(0.5), a_plan(n=4, dt=0.5, t_end=3.0, record_every=4, snapshots=(0.0, 1.5), blow_up_at=10.0)
+    h, x, state, log = asked.start(toy)
+    assert (h, log.running, log.limit) == (2 * math.pi / 4, True, 100.0)
+    np.testing.assert_array_equal(x, Grid(4).x)
+    np.testing.assert_array_equal(state, toy.initial(x))
+    assert log.clock.tolist() == [0, -1, 0, 1]
+    steady = np.array(toy.steady(x))
+
+    def off(du, dv):
+        return steady + np.array([[du], [dv]])
+
+    for step, (du, dv) in enumerate(((3.0, 4.0), (0.25, 0.0), (0.0, 2.0)), start=1):
+        log.watch(step, off(du, dv))
+        assert log.measure(off(du, dv)) == pytest.approx((du * du + dv * dv, steady[0].min() + du))
+    assert log.clock.tolist() == [3, 2, 0, 2]  # the second of them touched zero: 0.5 - 1 + 0.25 < 0
+    run = log.run(toy, off(0.0, 2.0), False)
+    np.testing.assert_allclose(run.t, [0, 1.5])
+    assert run.dist[1] == 2
+    assert (run.t_first_negative, run.t_stop, run.stop, run.blow_up_at) == (1.0, 1.5, Stop.REACHED_END, 10.0)
+    assert list(run.snapshots) == [0.0, 1.5]
+    assert log.run(toy, state, True).stop is Stop.INTERRUPTED
+    log.watch(4, off(11.0, 0.0))
+    assert not log.running
+    assert log.run(toy, state, True).stop is Stop.BLEW_UP
+    np.testing.assert_array_equal(log.run(toy, state, False).dist, [1.0, 11.0])
+
+
+def test_a_run_is_shown_without_its_arrays():
+    run = ftcs(Toy(1.5), 8, 0.5, 1.0, seed=(1, 0.0))
+    assert repr(run) == (
+        f"Run(problem={Toy(1.5)!r}, n=8, dt=0.5, t_first_negative=None, stop={Stop.REACHED_END!r}, t_stop=1.0, "
+        f"seed={Seed(1, 0.0)!r}, blow_up_at=1000.0)"
+    )

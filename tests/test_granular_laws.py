@@ -1,11 +1,13 @@
 """Guards the constitutive laws: mu(I), Lemma 1 by three routes, partial derivatives, base states, bad input."""
 
 import math
+import re
 
 import mpmath
 import numpy as np
 import pytest
 
+import primer.granular
 from primer.granular import (
     CIDR,
     CSSM,
@@ -14,6 +16,7 @@ from primer.granular import (
     GLASS_BEADS,
     GLASS_BEADS_2015,
     GLASS_BEADS_2017,
+    Ansatz,
     BaseState,
     Compaction,
     Coulomb,
@@ -221,3 +224,174 @@ def test_what_is_not_a_number_or_a_law_is_a_type_error(make):
 def test_what_is_no_law_is_named(law):
     with pytest.raises(TypeError, match="law must have the functions Y, Y_p, "):
         admit(law, BaseState(0.2, 0.55, 0.1))
+
+
+FUNCTIONS = ("Y", "Y_p", "Y_phi", "Y_I", "f", "f_p", "f_phi", "f_I")
+
+
+@pytest.mark.parametrize("law", LAWS, ids=lambda law: type(law).__name__)
+def test_at_rest_and_without_pressure_a_law_is_finite_and_every_value_of_the_full_shape(law):
+    p, phi, I = np.array([[0.0], [0.2]]), np.array([0.52, 0.55, 0.58]), np.zeros((2, 1, 1))
+    for name in FUNCTIONS:
+        value = getattr(law, name)(p, phi, I)
+        assert np.shape(value) == (2, 2, 3), name
+        assert np.isfinite(value).all(), name
+        one = getattr(law, name)(0.2, 0.55, 0.0)
+        assert np.shape(one) == ()
+        assert value[1, 1, 1] == one
+    assert np.all(law.Y(0.0, phi, I) == 0)
+
+
+def test_the_pressures_of_a_law_have_the_shape_of_phi_and_I():
+    phi, I = np.array([[0.52], [0.55]]), np.array([0.0, 0.1, 2.0])
+    for law in LAWS[2:]:
+        a, b = (2 * law.mu, 2 * law.mu) if law is LAWS[2] else (BEADS.alpha(I), BEADS.beta(I))
+        C = EXAMPLE_COMPACTION.C(phi)
+        np.testing.assert_allclose(law.p_max(phi, I), a * C * np.ones(3), rtol=1e-15)
+        np.testing.assert_allclose(law.p_critical(phi, I), b * C / 2 * np.ones(3), rtol=1e-15)
+        assert np.abs(law.Y(law.p_max(phi, I), phi, I)).max() < 1e-15
+        with pytest.raises(ValueError, match="I must be >= 0"):
+            law.p_max(0.55, -1.0)
+
+
+def test_an_ansatz_takes_any_a_and_b_and_refuses_what_is_no_function():
+    parts = (lambda I: 0.5 + I, lambda I: 1 + 0 * I, lambda I: 0.3 - I, lambda I: -1 + 0 * I)
+    law = Ansatz(*parts, EXAMPLE_COMPACTION)
+    assert law.Y(0.2, 0.55, 0.1) == pytest.approx(0.6 * 0.2 - 0.04, rel=1e-14)
+    assert law.f(0.2, 0.55, 0.1) == pytest.approx(0.2 - 0.4, rel=1e-14)
+    for j, name in enumerate(("a", "da", "b", "db")):
+        with pytest.raises(TypeError, match=f"^{name} must be a function of I, got 3$"):
+            Ansatz(*parts[:j], 3, *parts[j + 1 :], EXAMPLE_COMPACTION)
+    with pytest.raises(TypeError, match=r"^compaction must be a Compaction\(phi0, eps, C0\), got 3$"):
+        Ansatz(*parts, 3)
+
+
+def test_no_pressure_is_carried_at_random_loose_packing():
+    with pytest.raises(ValueError, match="there C") as error:
+        LAWS[3].Y(0.1, [0.5, 0.55], 0.1)
+    said = "phi must be > phi0 = 0.5: there C(phi) = 0 and no pressure can be carried, got array([0.5 , 0.55])"
+    assert str(error.value) == said
+    assert LAWS[3].p_max(0.5, 0.1) == 0
+
+
+def test_the_range_of_the_solids_fraction_ends_at_1_and_at_jamming():
+    assert Compaction(0.75, 0.25, 1.0).C(0.9375) == 3.0
+    with pytest.raises(ValueError, match=r"eps must be <= 1 - phi0 .a solids fraction is at most 1., got 0.2500001"):
+        Compaction(0.75, 0.2500001, 1.0)
+    assert Compaction(0.5, 0.1, 2.0).phi(0) == 0.5
+    with pytest.raises(ValueError, match="C must be >= 0 everywhere, got -1"):
+        Compaction(0.5, 0.1, 2.0).phi(-1)
+    rng, refused = np.random.default_rng(0), 0
+    for phi0, eps in rng.uniform(0.01, 0.5, (2000, 2)):
+        packing, below = Compaction(phi0, eps, 1.0), np.nextafter(phi0 + eps, 0)
+        said = f"phi must satisfy phi0 = {phi0:g} <= phi < phi0 + eps = {phi0 + eps:g}, got "
+        if (below - phi0) / eps < 1:
+            assert 1e12 < packing.C(below) < np.inf
+        else:  # by rounding
+            refused += 1
+            with pytest.raises(ValueError, match=re.escape(said)):
+                packing.C(below)
+        with pytest.raises(ValueError, match=re.escape(said)):
+            packing.C(phi0 + eps)
+    assert 0 < refused < 1000
+
+
+def test_a_compaction_is_an_object_with_C_and_its_slope():
+    class Half:
+        C = staticmethod(lambda phi: phi)
+
+    for wrong in (Compaction, Half(), 3, None):
+        with pytest.raises(TypeError, match="compaction must be a Compaction"):
+            CSSM(0.4, wrong)
+    Half.dC = staticmethod(lambda phi: 1 + 0 * phi)
+    assert CSSM(0.4, Half()).Y(0.1, 0.5, 0.1) == pytest.approx(0.08 - 0.02)
+
+
+def test_the_quadrature_serves_arrays_of_any_shape_in_parts():
+    slow = Friction(BEADS.mu, BEADS.dmu)
+    assert slow.alpha(np.zeros((0, 2))).shape == (0, 2)
+    assert np.shape(slow.alpha(0.1)) == ()
+    I = np.geomspace(1e-3, 10, 9000).reshape(3, 3000)
+    many = slow.dalpha(I)
+    assert many.shape == I.shape
+    np.testing.assert_allclose(many, BEADS.dalpha(I), rtol=2e-14)
+    flat = Friction(lambda I: 0.4, lambda I: 0.0)  # a constant need not be an array
+    np.testing.assert_allclose(flat.alpha(I), 0.8, rtol=1e-14)
+    with pytest.raises(ValueError, match=r"^I: the quadrature at all inertial numbers must fit into 2 GiB of memory"):
+        slow.alpha(np.broadcast_to(0.1, 2**21 + 1))
+    with pytest.raises(ValueError, match="I must be >= 0 everywhere, got -1"):
+        slow.alpha(-1)
+
+
+def test_what_is_a_friction_law():
+    class Half:
+        mu = staticmethod(BEADS.mu)
+
+    for wrong in (Half(), 3):
+        with pytest.raises(TypeError, match=r"friction must have the functions mu.I. and dmu.I., as MuI or Friction"):
+            as_friction(wrong)
+    for j, name in enumerate(("mu", "dmu")):
+        with pytest.raises(TypeError, match=f"^{name} must be a function of I, got 3$"):
+            Friction(*[3 if k == j else BEADS.mu for k in range(2)])
+    with pytest.raises(ValueError, match=r"mu2 must be > mu1 = 0.5 so that friction rises with I, got 0.5"):
+        MuI(0.5, 0.5, 0.1)
+
+
+def test_parameters_are_those_of_the_literature():
+    """Angles of 21 and 33 degrees, d and rho of glass beads; and what the later papers print."""
+    table = {
+        "GLASS_BEADS": (math.tan(math.pi * 21 / 180), math.tan(math.pi * 33 / 180), 0.279, 0.53e-3, 2450),
+        "GLASS_BEADS_2015": (0.383, 0.643, 0.279, 0.53e-3, 2450),
+        "GLASS_BEADS_2017": (0.342, 0.557, 0.069, 0.5e-3, 2500),
+        "DISCS_2011": (0.32, 0.60, 0.4, None, None),
+    }
+    for name, (mu1, mu2, I0, d, rho) in table.items():
+        material = getattr(primer.granular, name)
+        f = material.friction
+        assert (f.mu1, f.mu2, f.I0) == pytest.approx((mu1, mu2, I0), rel=1e-15)
+        assert (material.d, material.rho) == (d, rho)
+    assert (EXAMPLE_COMPACTION.phi0, EXAMPLE_COMPACTION.eps, EXAMPLE_COMPACTION.C0) == (0.5, 0.1, 1.0)
+
+
+def test_a_base_state_says_what_is_wrong_with_it():
+    state = BaseState(p=0.2, phi=1, I=[0.1, 0.2])  # a solids fraction of 1 is the last one allowed
+    assert (state.d, state.rho, state.shape) == (1.0, 1.0, (2,))
+    assert isinstance(state.phi, float)
+    for numbers, said in (
+        ((0.2, 1.01, 0.1), "phi must be <= 1, being a solids fraction, got 1.01"),
+        ((0.2, [0.5, 1.01], 0.1), "phi must be <= 1 everywhere, being a solids fraction, got array([0.5 , 1.01])"),
+        ((0.2, 0.5, 0.1, 0.0), "d must be > 0, got 0.0"),
+        ((0.2, 0.5, 0.1, 1.0, [-1.0, 1]), "rho must be > 0 everywhere, got [-1.0, 1]"),
+        (
+            ([1, 2], 0.5, [1, 2, 3]),
+            "the shapes of p, phi, I, d and rho must broadcast, got p (2,), phi (), I (3,), d (), rho ()",
+        ),
+    ):
+        with pytest.raises(ValueError, match="must") as error:
+            BaseState(*numbers)
+        assert str(error.value) == said
+
+
+def test_a_state_is_admitted_with_its_yield_stress_or_refused_with_the_numbers():
+    law, state = LAWS[3], BaseState([[0.1], [0.2]], [0.55, 0.56], 0.1)
+    np.testing.assert_array_equal(admit(law, state), law.Y(state.p, state.phi, state.I))
+    assert np.shape(admit(LAWS[0], state)) == (2, 2)
+    assert np.shape(admit(law, BaseState(0.2, 0.55, 0.1))) == ()
+    top = law.p_max(0.55, 0.1)
+    said = f"p must be < {top:g} for the yield stress to be positive, got p = 2, phi = 0.55, I = 0.1"
+    with pytest.raises(ValueError, match="p must be") as error:
+        admit(law, BaseState([0.1, 2.0, 3.0], 0.55, 0.1))  # the first that is wrong is named
+    assert str(error.value) == said
+    cohesionless = Friction(lambda I: 0.5 - I, lambda I: -1 + 0 * I)
+    for I, Y in ((0.5, "0"), (0.75, "-0.5")):
+        with pytest.raises(ValueError, match="yield") as error:
+            admit(IncompressibleMuI(cohesionless), BaseState(2.0, 0.55, [0.1, I, 0.9]))
+        told = f"the yield stress Y(p, phi, I) must be positive and finite, got {Y} at p = 2, phi = 0.55, I = {I}"
+        assert str(error.value) == told
+    with pytest.raises(ValueError, match=r"positive and finite, got inf at p = 1e\+308, phi = 0.55, I = 0.1"):
+        admit(Coulomb(1e10), BaseState(1e308, 0.55, 0.1))
+    for call in (state.tau, state.div_u):
+        with pytest.raises(TypeError, match="law must have the functions Y, Y_p, Y_phi, Y_I, f, f_p, f_phi, f_I of"):
+            call(3)
+    with pytest.raises(TypeError, match="state must be a BaseState, got 3"):
+        admit(law, 3)

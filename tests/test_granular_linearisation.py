@@ -88,6 +88,91 @@ def test_the_terms_of_lower_order_change_the_growth_by_a_bounded_amount(law):
     assert np.ptp(change) < 0.01 * STATE.D
 
 
+@pytest.mark.parametrize("law", [*LAWS, Unaligned()], ids=lambda law: type(law).__name__)
+def test_a_uniform_change_feels_only_the_base_flow(law):
+    """xi = 0: what is left of the full equations is rho phi u.grad u*, phi div u*, and what f says of p and phi."""
+    pencil, c = derive(law, STATE, order="full"), coefficients(law, STATE)
+    S, E = pencil.matrices(np.zeros(2))
+    spread = STATE.div_u(law) / 2
+    expected = np.zeros((5, 5))
+    expected[0, 0], expected[1, 1] = c.density * (spread - c.D), c.density * (spread + c.D)
+    expected[2, 2] = 2 * spread
+    expected[3, 2], expected[3, 3], expected[4, 4] = -2 * c.D * c.f_phi, c.Gamma, 4 * c.D
+    if c.incompressible:
+        expected = expected[[0, 1, 3, 4]][:, [0, 1, 3, 4]]
+    np.testing.assert_allclose(S, expected, rtol=1e-12, atol=1e-13)
+    np.testing.assert_allclose(E, mass(c), rtol=1e-14)
+
+
+def test_the_equations_are_derived_at_a_single_state_to_one_of_two_orders():
+    with pytest.raises(ValueError, match=r"^order must be 'maximal' or 'full', got 'half'$"):
+        derive(LAWS[0], STATE, order="half")
+    for make in (derive, linearise):
+        with pytest.raises(ValueError, match=r"^state must be a single state to make a pencil, got shape \(2,\)$"):
+            make(LAWS[3], BaseState([0.1, 0.2], 0.55, 0.1))
+    with pytest.raises(ValueError, match="yield stress"):
+        derive(LAWS[3], BaseState(2.0, 0.55, 0.1))
+
+
+def test_the_coefficients_of_the_linearised_equations_are_their_definitions():
+    for law in (*LAWS, Unaligned()):
+        p, phi, I = np.array([[0.3], [0.2]]), 0.56, np.array([0.1, 0.2, 0.3])
+        state = BaseState(p, phi, I, d=0.7, rho=1.7)
+        c, D = coefficients(law, state), I * np.sqrt(p / 1.7) / 1.4
+        at = {name: getattr(law, name)(p, phi, I) for name in ("Y", "Y_p", "Y_phi", "Y_I", "f", "f_p", "f_phi", "f_I")}
+        expected = {
+            "A": I * at["Y_I"] / (2 * D),
+            "B": at["Y_p"] - I / (2 * p) * at["Y_I"],
+            "C": at["f"] + I * at["f_I"],
+            "Gamma": -2 * D * (at["f_p"] - I / (2 * p) * at["f_I"]),
+            "t": at["Y"] / (2 * D),
+            "tau": at["Y"],
+            "Y_phi": at["Y_phi"],
+            "f_phi": at["f_phi"],
+            "D": D,
+            "phi": phi,
+            "rho": 1.7,
+            "density": 1.7 * phi,
+        }
+        for name, value in expected.items():
+            np.testing.assert_allclose(getattr(c, name), np.broadcast_to(value, (2, 3)), rtol=1e-14, err_msg=name)
+        assert c.incompressible == (law in LAWS[:2])
+        one = coefficients(law, BaseState(0.2, phi, 0.3, d=0.7, rho=1.7))
+        assert (one.A, one.B, one.Gamma) == pytest.approx((c.A[1, 2], c.B[1, 2], c.Gamma[1, 2]), rel=1e-14)
+        assert np.shape(one.A) == ()
+
+
+@pytest.mark.parametrize("law", [*LAWS, Unaligned()], ids=lambda law: type(law).__name__)
+def test_matrices_of_many_states_and_wavevectors_are_those_of_each(law):
+    states = BaseState(np.array([[0.3], [0.2]]), 0.56, np.array([0.1, 0.2, 0.3]))
+    xi = np.random.default_rng(8).normal(size=(2, 4, 2, 3))
+    c = coefficients(law, states)
+    S, E = symbol(c, xi), mass(c)
+    size = 4 if c.incompressible else 5
+    assert S.shape == (4, 2, 3, size, size)
+    assert E.shape == (2, 3, size, size)
+    for i, j in ((0, 0), (1, 2)):
+        one = coefficients(law, BaseState(states.p[i, 0], 0.56, states.I[j]))
+        np.testing.assert_allclose(symbol(one, xi[:, 1, i, j]), S[1, i, j], rtol=1e-14)
+        np.testing.assert_allclose(mass(one), E[i, j], rtol=1e-14)
+        if not c.incompressible:
+            for part in (reduced, M, N, V):
+                np.testing.assert_allclose(part(one, xi[:, 1, i, j]), part(c, xi)[1, i, j], rtol=1e-13, atol=1e-15)
+    for wrong, shape in ((1.0, "()"), (np.ones(3), "(3,)")):
+        with pytest.raises(ValueError, match="xi must have shape") as error:
+            symbol(c, wrong)
+        assert str(error.value) == f"xi must have shape (2, ...), got shape {shape}"
+
+
+def test_without_Gamma_no_pressure_can_be_eliminated():
+    c = coefficients(LAWS[3], BaseState([0.2, 0.3], 0.55, 0.1))
+    c = replace(c, Gamma=c.Gamma * [1, 0])
+    said = "^Gamma must not be 0: the pressure of an incompressible law is not a function of the flow$"
+    for part in (N, V, reduced):
+        with pytest.raises(ValueError, match=said):
+            part(c, np.ones(2))
+
+
 def test_incompressible_pencils_have_four_unknowns_and_div_u_as_a_row():
     pencil = linearise(LAWS[0], STATE)
     S, E = pencil.matrices(np.array([0.3, 0.7]))

@@ -99,6 +99,35 @@ def test_Lambda_is_minus_the_eigenvalues_of_M_plus_N():
         assert proof.lambda_3(c, x) == pytest.approx(-nu / (L[0] * L[1]), rel=1e-9)
 
 
+def test_positive_definite_is_what_the_eigenvalues_of_the_symmetric_matrices_say():
+    """B = C leaves M + N symmetric: both eigenvalues positive in every direction, or not."""
+    rng = np.random.default_rng(1)
+    c = coefficients(CIDR(BEADS, PACKING), BaseState(np.full(300, 0.3), 0.56, 0.2))
+    B, A, t, Gamma = rng.uniform(-1.5, 1.5, 300), rng.normal(size=300), rng.normal(size=300), rng.normal(size=300)
+    c = replace(c, A=A, B=B, C=B, t=t, Gamma=Gamma)
+    angle = np.linspace(0, np.pi, 721)
+    xi = np.stack([np.cos(angle), np.sin(angle)])[..., None]
+    least = np.linalg.eigvalsh(M(c, xi) + N(c, xi)).min(axis=(0, -1))
+    says = proof.is_positive_definite(c)
+    clear = np.abs(least) > 1e-4
+    np.testing.assert_array_equal(says[clear], least[clear] > 0)
+    assert 10 < says.sum() < 290
+
+
+def test_Lambda_is_complex_where_the_matrix_has_no_real_eigenvalues():
+    c = replace(coefficients(CIDR(BEADS, PACKING), STATE), B=2.0, C=0.0, t=0.1, A=0.2, Gamma=0.05)
+    found = proof.Lambda(c, X)
+    exact = np.linalg.eigvals(M(c, XI) + N(c, XI)) / -c.density
+    for ours, theirs in zip(found.round(9), exact.round(9), strict=True):
+        np.testing.assert_allclose(np.sort_complex(ours), np.sort_complex(theirs), atol=1e-8)
+    assert np.iscomplexobj(found)
+    many = coefficients(CIDR(BEADS, PACKING), BaseState([0.2, 0.3], 0.56, [0.2, 0.3]))
+    both = proof.Lambda(many, X[:, None])
+    assert both.shape == (60, 2, 2)
+    one = coefficients(CIDR(BEADS, PACKING), BaseState(0.3, 0.56, 0.3))
+    np.testing.assert_allclose(both[:, 1], proof.Lambda(one, X), rtol=1e-13)
+
+
 def test_lemma_2_and_its_constants():
     I = np.logspace(-6, 6, 200)
     says = proof.lemma_2(BEADS, I)
@@ -106,6 +135,10 @@ def test_lemma_2_and_its_constants():
     assert (says.alpha_ratio > 0).all()
     assert (says.beta_ratio > 0).all()
     assert says.alpha_ratio[0] == pytest.approx(0, abs=1e-5)
+    np.testing.assert_allclose(says.alpha_ratio, BEADS.dalpha(I) / BEADS.dmu(I) - 8 / 7, atol=1e-14)
+    np.testing.assert_allclose(says.beta_ratio, BEADS.dbeta(I) / BEADS.dmu(I) - 2 / 7, atol=1e-14)
+    for name in ("dmu", "dalpha", "dbeta"):
+        np.testing.assert_array_equal(getattr(says, name), getattr(BEADS, name)(I))
     convex = Friction(lambda I: 0.3 + 0.1 * I**4, lambda I: 0.4 * I**3)  # mu'' > 0: the premise fails
     assert proof.lemma_2(convex, 1.0).beta_ratio < 0
 
@@ -160,6 +193,30 @@ def test_the_window_about_the_equality():
         assert leading(replace(c, C=c.B + edge * (1 + 1e-6))).ill_posed.all()
     wide = replace(c, C=c.B + high * 1.01)
     assert (fastest(wide, 1e6 * np.sqrt(c.density * c.Gamma * c.D))[0] > 0).all()
+
+
+def test_the_window_by_bisection_where_the_minimum_is_at_an_end():
+    """|B + reach| > 1: the determinant first vanishes at x = -1 or 1."""
+    rng = np.random.default_rng(3)
+    c = coefficients(CIDR(BEADS, PACKING), BaseState(np.full(200, 0.3), 0.56, 0.2))
+    B, A, t, Gamma = rng.uniform(-0.95, 0.95, 200), *rng.uniform(0, 3, (3, 200))
+    c = replace(c, A=A, B=B, t=t, Gamma=Gamma)
+    c = replace(c, A=np.where(np.arange(200) % 20, c.A, c.t))  # t = A: the determinant is a line
+    low, high = proof.kappa_window(c)
+    x = np.linspace(-1, 1, 2001)[:, None]
+    for edge, at_end in ((low, 0), (high, -1)):
+        inner, outer = (proof.det_MN(replace(c, C=B + edge * f), x).min(axis=0) for f in (0.999, 1.001))
+        assert (inner > 0).all()
+        assert (outer < 0).all()
+        lowest = proof.det_MN(replace(c, C=B + edge), x).argmin(axis=0)
+        assert 20 < ((lowest == 0) | (lowest == 2000)).sum() < 190, at_end
+    for wrong in ({"B": c.B * 0 + 1}, {"B": c.B * 0 - 1}, {"A": c.A - 3}, {"Gamma": 0 * c.Gamma}):
+        with pytest.raises(ValueError, match=r"^the window needs \|B\| < 1, A >= 0 and Gamma > 0$"):
+            proof.kappa_window(replace(c, **wrong))
+    still = proof.kappa_window(replace(c, A=0 * c.A))
+    np.testing.assert_array_equal(still, np.zeros((2, 200)))
+    one = coefficients(CIDR(BEADS, PACKING), STATE)
+    assert np.shape(proof.kappa_window(one)) == (2,)
 
 
 def test_the_window_closes_without_rate_dependence():

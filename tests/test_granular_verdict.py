@@ -5,6 +5,7 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
+from scipy.integrate import quad
 from scipy.optimize import brentq, minimize_scalar
 
 from primer import max_growth
@@ -30,6 +31,7 @@ from primer.granular import (
     neutral_inertial_numbers,
     verdict,
 )
+from primer.granular.criteria import Conditions, _dips
 from primer.granular.dispersion import Delta, at, dispersion, growth_rate
 from primer.granular.fastest import fastest
 from primer.granular.limits import leading, least_Delta, quotient_maximum
@@ -206,6 +208,34 @@ def test_neutral_inertial_numbers():
         assert abs(incompressible_criterion(BEADS, root).C) < 1e-13
 
 
+def test_neutral_inertial_numbers_are_looked_for_between_the_ends_and_nowhere_else():
+    first, second = neutral_inertial_numbers(BEADS)
+    np.testing.assert_allclose(neutral_inertial_numbers(BEADS, high=0.1), [first], rtol=1e-13)
+    np.testing.assert_allclose(neutral_inertial_numbers(BEADS, 0.1), [second], rtol=1e-13)
+    np.testing.assert_allclose(neutral_inertial_numbers(BEADS, first * 0.9999, first * 1.0001), [first], rtol=1e-13)
+    assert neutral_inertial_numbers(BEADS, 0.1, 0.8).size == 0
+    assert neutral_inertial_numbers(BEADS, first, first).size == 0  # a single number is no interval to change in
+    with pytest.raises(ValueError, match=r"^low must be <= high, got low = 0.2 and high = 0.1$"):
+        neutral_inertial_numbers(BEADS, 0.2, 0.1)
+    for ends in ((0, 1), (1, 0)):
+        with pytest.raises(ValueError, match="must be a finite number > 0, got 0"):
+            neutral_inertial_numbers(BEADS, *ends)
+
+
+def test_dips_are_the_minima_between_0_and_1_and_nothing_else():
+    s = np.linspace(-10, 10, 401)
+    bottom = np.array([-7.513, -2.231, 3.117, 8.009])
+    height = np.array([0.3, -0.1, 0.95, 1.1])  # the second is below zero without help, the last too high to matter
+
+    def growth(s):
+        return np.minimum((np.abs(np.subtract.outer(s, bottom)) + height).min(axis=-1), 5)
+
+    np.testing.assert_allclose(_dips(growth, s), bottom[[0, 2]], rtol=1e-11)
+    (found,) = _dips(lambda s: 0.5 + (s - 0.025) ** 2, s)  # half way between two points of equal height
+    assert found == pytest.approx(0.025, abs=1e-7)
+    assert _dips(lambda s: 0.5 + 0.01 * s, s).size == 0  # no minimum but at the end
+
+
 def test_a_window_of_well_posedness_narrower_than_the_scan_is_found():
     """mu2 such that the least growth rate over I is barely below zero: two neutral numbers side by side."""
 
@@ -228,6 +258,26 @@ def test_friction_above_one_is_beyond_the_incompressible_criterion():
     steep = incompressible_criterion(MuI(1.1, 1.5, 0.3), np.array([1e-9, 0.3]))
     assert steep.growth[0] == np.inf
     assert not steep.well_posed[0]
+
+
+def test_the_incompressible_criterion_at_its_edges():
+    """At |B| = 1 the growth is unbounded already; where it is nought the rheology counts as well posed."""
+    one = incompressible_criterion(Friction(lambda I: 1 + 0 * I, lambda I: 0 * I), 0.3)
+    assert (one.n, one.B, one.C, one.growth, one.well_posed) == (0, 1, 1, np.inf, False)
+    minus = incompressible_criterion(Friction(lambda I: 1 + 0 * I, lambda I: 4 + 0 * I), 1.0)
+    assert (minus.n, minus.B, minus.growth, minus.well_posed) == (4, -1, np.inf, False)
+    beyond = incompressible_criterion(Friction(lambda I: 1.25 + 0 * I, lambda I: 5 + 0 * I), 1.0)
+    assert (beyond.B, beyond.growth, beyond.well_posed) == (-1.25, np.inf, False)
+    steep = incompressible_criterion(Friction(lambda I: 0.4 * I**3, lambda I: 1.2 * I**2), 1.0)  # n = 3
+    assert pytest.approx(-0.2, rel=1e-14) == steep.B
+    assert steep.growth == pytest.approx(-2 * np.tan(np.arcsin(0.2) / 2) ** 2 - 3, rel=1e-14)
+    neutral = 0
+    for mu in 0.8 / 0.9 + np.spacing(0.5) * np.arange(-8, 9):  # n = 0.2, B = 0.8, 4n(1 - n) = B^2
+        says = incompressible_criterion(Friction(lambda I, mu=mu: mu, lambda I, mu=mu: 0.2 * mu), 1.0)
+        neutral += says.C == 0
+        assert says.well_posed == (says.C <= 0)
+        assert says.growth == pytest.approx(0, abs=1e-14)
+    assert neutral
 
 
 def test_the_incompressible_criterion_agrees_with_the_eigenvalues_with_its_clause():
@@ -275,6 +325,41 @@ def test_conditions_report_which_hypothesis_holds():
     assert (bool(soil.equality), bool(soil.a), bool(soil.b)) == (True, False, True)
     dry = conditions(Coulomb(0.4), BaseState(0.2, 0.55, 0.1))
     assert (bool(dry.equality), bool(dry.a), bool(dry.b)) == (False, False, False)
+
+
+@pytest.mark.parametrize("p", [0.05, 0.15, 0.35])
+def test_the_equality_holds_to_a_billionth_of_its_terms(p):
+    """With constant a and b the two sides are a - 2p/C and b - 2p/C, of either sign: their difference is a - b."""
+    C = PACKING.C(0.55)
+    a = 0.4
+    size = abs(a - 2 * p / C) + abs(a - 2 * p / C) + (a * p - p * p / C) / p
+    for share, holds in ((0.99, True), (1.01, False), (-0.99, True), (-1.01, False)):
+        b = a + share * 1e-9 * size
+        law = Ansatz(lambda I: a + 0 * I, lambda I: 0 * I, lambda I, b=b: b + 0 * I, lambda I: 0 * I)
+        says = conditions(law, BaseState(p, 0.55, 0.3))
+        assert says.equality == holds
+        np.testing.assert_allclose([says.B, says.C], [a - 2 * p / C, b - 2 * p / C], rtol=1e-13)
+        assert (says.Y_I, says.slope, bool(says.theorem)) == (0, pytest.approx(-2 / C, rel=1e-14), False)
+
+
+def test_the_theorem_needs_all_three():
+    yes, no = np.array(True), np.array(False)
+    for equality, a, b in np.ndindex(2, 2, 2):
+        holds = Conditions(*np.zeros(2), (no, yes)[equality], 0.0, (no, yes)[a], 0.0, (no, yes)[b])
+        assert holds.theorem == (equality + a + b == 3)
+
+
+def test_a_critical_state_is_where_f_vanishes():
+    for law in (CSSM(0.4, PACKING), CIDR_BEADS):
+        state = critical_state(law, 0.57)
+        assert (state.I, state.d, state.rho) == (0.1, 1.0, 1.0)
+        assert law.f(state.p, 0.57, 0.1) == pytest.approx(0, abs=1e-15)
+        other = critical_state(law, [0.55, 0.57], 2.0, 0.5, 3.0)
+        assert (other.I, other.d, other.rho, other.shape) == (2.0, 0.5, 3.0, (2,))
+        assert law.f(other.p, other.phi, 2.0) == pytest.approx(0, abs=1e-15)
+    for wrong in (Coulomb(0.4), CSSM, 3):
+        with pytest.raises(TypeError, match="law must have a critical state, as CSSM and CIDR do, got"):
+            critical_state(wrong, 0.55)
 
 
 def test_each_hypothesis_violated_alone():
@@ -417,6 +502,52 @@ def test_the_slopes_of_the_violations_are_those_of_their_laws():
         for value, slope in ((row.law.Y, row.law.Y_I), (row.law.f, row.law.f_I)):
             difference = (value(p, phi, I + h) - value(p, phi, I - h)) / (2 * h)
             assert slope(p, phi, I) == pytest.approx(difference, rel=1e-6, abs=1e-8), row.name
+
+
+def test_the_violations_one_by_one_in_words_and_numbers():
+    """Each law from its a(I), b(I) at its state: which hypotheses hold, and whether the growth is bounded."""
+    rows = cases()
+    C = PACKING.C(0.55)
+    assert [(row.state.p, row.state.phi, row.state.I) for row in rows] == [
+        (0.2 * C, 0.55, 0.1),
+        (0.2 * C, 0.55, 0.1),
+        (0.5 * C, 0.55, 0.1),
+        (0.3 * C, 0.55, 0.5),
+        (0.2 * C, 0.55, 0.1),
+        (0.05 * C, 0.55, 0.001),
+        (0.2 * C, 0.55, 0.1),
+    ]
+    made = {
+        "all hold: CIDR": (BEADS.alpha, BEADS.beta),
+        "(a) fails, Y_I = 0: CSSM, dilating": (lambda I: 2 * BEADS.mu1, lambda I: 2 * BEADS.mu1),
+        "(a) fails, Y_I = 0: CSSM, contracting": (lambda I: 2 * BEADS.mu1, lambda I: 2 * BEADS.mu1),
+        "(a) fails, Y_I < 0: friction falls with I": None,
+        "equality fails: normality, f = Y_p": (lambda I: 2 * BEADS.mu(I), lambda I: 2 * BEADS.mu(I)),
+        "equality fails: constant dilatancy": (lambda I: BEADS.mu(I) + 0.05, lambda I: 0.1),
+        "(b) fails: f_p - I/(2p) f_I > 0": (BEADS.alpha, lambda I: BEADS.beta(I) + 0.1 / I),
+    }
+    assert [row.name for row in rows] == list(made)
+    for row in rows:
+        p, I = row.state.p, row.state.I
+        if made[row.name]:
+            a, b = (part(I) for part in made[row.name])
+            assert row.law.Y(p, 0.55, I) == pytest.approx(a * p - p * p / C, rel=1e-13)
+            assert row.law.f(p, 0.55, I) == pytest.approx(b - 2 * p / C, rel=1e-13)
+        else:  # Lemma 1 of the falling law
+            mu, K = BEADS.mu1 + 0.1 / (1 + I), quad(lambda s, I=I: s**-0.6 * (BEADS.mu1 + 0.1 / (1 + s * I)), 0, 1)[0]
+            assert row.law.a(I) == pytest.approx(0.8 * mu + 0.48 * K, rel=1e-8)
+        assert row.verdict.kind == verdict(row.law, row.state).kind
+        assert row.conditions.theorem == (row.name == "all hold: CIDR")
+    lines = table(rows).splitlines()
+    assert lines[0] == f"{'case':44s} {'B = C':>6s} {'(a)':>4s} {'(b)':>4s}  {'verdict':11s} growth"
+    for line, row in zip(lines[1:], rows, strict=True):
+        mark = [
+            {True: "yes", False: "no"}[bool(v)] for v in (row.conditions.equality, row.conditions.a, row.conditions.b)
+        ]
+        v = row.verdict
+        power = {2: "2", 1: "1"}.get(v.exponent)
+        growth = f"{v.coefficient:.5g} |xi|^{power}" if v.kind == "ill-posed" else f"at most {v.bound:.5g}"
+        assert line == f"{row.name:44s} {mark[0]:>6s} {mark[1]:>4s} {mark[2]:>4s}  {v.kind:11s} {growth}"
 
 
 @pytest.mark.slow

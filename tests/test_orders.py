@@ -1,5 +1,6 @@
 """Guards the order of accuracy of every scheme, in space and in time, and the tables of numbers they are made of."""
 
+from dataclasses import replace
 from fractions import Fraction
 from functools import cache
 from itertools import combinations_with_replacement
@@ -11,6 +12,8 @@ from scipy.linalg import expm
 from primer import CENTRAL, CENTRAL_4, CENTRAL_6, FOURIER, RK4, RK8, BackwardHeat, Toy, march_lines, reference
 from primer.schemes import lines
 from primer.schemes.grid import Grid
+from primer.schemes.lines import stable_step
+from primer.schemes.runge_kutta import RungeKutta
 
 SPACES = {2: CENTRAL, 4: CENTRAL_4, 6: CENTRAL_6, "spectral": FOURIER}
 
@@ -131,7 +134,7 @@ def stage_weights(tree, A):
 
 @pytest.mark.parametrize("time", [RK4, RK8], ids=lambda time: time.name)
 def test_butchers_order_conditions(time):
-    A, b = time.table
+    A, b = replace(time).table  # made anew from the rows
     assert [len(trees(nodes)) for nodes in range(1, 10)] == [1, 1, 2, 4, 9, 20, 48, 115, 286]
     for nodes in range(1, time.order + 1):
         assert max(abs(b @ stage_weights(tree, A) - 1 / density(tree)) for tree in trees(nodes)) < 1e-14
@@ -148,7 +151,7 @@ def test_rk8_has_the_numbers_of_scipys_dop853():
 
 @pytest.mark.parametrize("time", [RK4, RK8], ids=lambda time: time.name)
 def test_the_half_disc_of_stability(time):
-    A, b = time.table
+    A, b = replace(time).table  # made anew from the rows
     z = np.exp(1j * np.linspace(np.pi / 2, 3 * np.pi / 2, 721))
 
     def growth(radius):
@@ -195,3 +198,148 @@ def test_the_end_is_met_and_a_blow_up_is_an_outcome():
 def test_bad_input_is_named(arguments, error, words):
     with pytest.raises(error, match=words):
         march_lines(Toy(1.5), *arguments)
+
+
+@pytest.mark.parametrize("space", SPACES.values(), ids=SPACES.keys())
+@pytest.mark.parametrize("n", [7, 20, 129])
+def test_the_stable_step_is_nine_tenths_of_the_half_disc_over_the_largest_eigenvalue(space, n):
+    """Eigenvalues lie within max(d1, 1 + eps (|a| + 1.25) d2), d1 and d2 the largest multipliers on the grid."""
+    xi, h = np.arange(n // 2 + 1), 2 * np.pi / n
+    d1, d2 = (np.abs(space[m].multiplier(xi, h)).max() for m in (1, 2))
+    if space is CENTRAL:
+        assert d1 == pytest.approx(np.sin(xi * h).max() / h)
+        assert d2 == pytest.approx(4 / h**2 * (np.sin(xi * h / 2) ** 2).max())
+    for a, eps in ((1.5, 0.0), (-2.0, 0.3), (1.5, 1e-3), (0.0, 0.02)):
+        for time, reach in ((RK4, 2.6), (RK8, 5.9)):
+            expected = 0.9 * reach / max(d1, 1 + eps * (abs(a) + 1.25) * d2)
+            assert stable_step(Toy(a, eps), n, space, time) == pytest.approx(expected, rel=1e-14)
+
+
+@pytest.mark.parametrize(("space", "n"), [(CENTRAL, 12), (CENTRAL_6, 12), (CENTRAL_6, 4), (FOURIER, 9), (FOURIER, 130)])
+@pytest.mark.parametrize("fast", [True, False])
+def test_the_states_on_the_way_and_the_depth_of_u_below_zero(space, n, fast, monkeypatch):
+    """Step by step by ``RungeKutta.step``; the depth by the rectangle rule, from the state before each step."""
+    toy, dt, counts = Toy(0.4, 1e-4), np.array([0.02, 0.01, 0.04]), np.array([3, 0, 50])
+    if not fast:
+        monkeypatch.setattr(lines, "compiled", lambda module: None)
+    states, depth = lines.trace(toy, n, space, RK8, dt, counts)
+    x, h, deep = Grid(n).x, 2 * np.pi / n, 0.0
+    y = np.array(toy.initial(x))
+
+    def slope(y):
+        return np.array(toy.rhs(x, y, lambda f, m: space[m](f, h)))
+
+    for m in range(3):
+        for _ in range(counts[m]):
+            deep += dt[m] * max(0.0, -y[0].min())
+            y = RK8.step(slope, y, dt[m])
+        np.testing.assert_allclose(states[m], y, atol=1e-12)
+        assert depth[m] == pytest.approx(deep, abs=1e-13)
+    assert depth[0] == 0 < depth[2]
+
+
+@pytest.mark.parametrize("fast", [True, False])
+@pytest.mark.parametrize("space", [CENTRAL, FOURIER], ids=["central", "fourier"])
+def test_states_that_a_blow_up_kept_from_being_reached_are_nan(space, fast, monkeypatch):
+    if not fast:
+        monkeypatch.setattr(lines, "compiled", lambda module: None)
+    toy, dt = Toy(-1.0, 0.5), np.full(4, 0.05)
+    counts = np.array([2, 2, 1000, 1])
+    states, depth = lines.trace(toy, 32, space, RK4, dt, counts)
+    assert np.isfinite(states[:2]).all()
+    assert np.isfinite(depth[:2]).all()
+    assert np.isnan(states[2:]).all()
+    assert (depth[2:] == np.inf).all()
+    assert states.shape == (4, 2, 32)
+
+
+def test_a_march_is_given_up_at_1e100_times_the_size_of_its_data(monkeypatch):
+    """|y| doubles at each step of y' = y/dt by the tangent: for any problem, to the very step."""
+
+    class Doubling:
+        def initial(self, x):
+            return (np.where(x < 0, 3.0, -3.0),)
+
+        def forcing(self, x):
+            return None
+
+        def rhs(self, x, state, derivative, forcing):
+            return state
+
+    euler = RungeKutta("Euler", 1, (), (1.0,), 1.0)
+    limit = 1e100 * 4  # 1 + max|y|
+    last = int(np.log2(limit / 3))
+    for counts, alive in ((last, True), (last + 1, False)):
+        run = march_lines(Doubling(), 4, 1.0, counts, CENTRAL, euler)
+        assert run.blew_up is not alive
+        assert not alive or (np.abs(run.final[0]) == 3.0 * 2.0**last).all()
+
+
+def test_a_march_ends_at_its_end_in_equal_steps_none_longer_than_asked():
+    for dt, t_end, steps in ((0.1, 0.3, 3), (0.1, 0.31, 4), (0.3, 1.0, 4), (2.0, 1.0, 1), (1e-3, 0.0, 0)):
+        run = march_lines(Toy(1.5), 4, dt, t_end)
+        assert run.dt == pytest.approx(t_end / steps if steps else dt, rel=1e-15)
+        assert (run.t, run.n, run.problem, run.time, run.space) == (t_end, 4, Toy(1.5), RK4, CENTRAL)
+        np.testing.assert_array_equal(run.x, Grid(4).x)
+        for array in (run.x, *run.final):
+            assert not array.flags.writeable
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        ((4, 1e-7, 1.0001), "dt must be >= t_end/1e+07 (more steps take too long), got 1e-07 with t_end 1.0001"),
+        ((10**6, 1e-7, 0.5), "n and dt must be such that n t_end/dt <= 1e+12, got n = 1000000 and dt = 1e-07"),
+        ((10**7, 1.0, 1.0), "n: the march must fit into 2 GiB of memory, got n = 10000000"),
+        ((4, 0.1, -1.0), "t_end must be a finite number >= 0, got -1.0"),
+    ],
+)
+def test_a_march_too_long_is_refused_before_it_starts(arguments, said):
+    time = RK8 if arguments[0] == 10**7 else RK4
+    with pytest.raises(ValueError, match="must") as error:
+        march_lines(Toy(1.5), *arguments, CENTRAL, time)
+    assert str(error.value) == said
+
+
+def test_the_longest_marches_allowed(monkeypatch):
+    """10^7 steps, and 10^12 points times steps, are not too many: they are marched."""
+    asked = []
+
+    def trace(problem, n, space, time, dt, counts):
+        asked.append((n, int(counts[0])))
+        return np.zeros((1, 2, n)), None
+
+    monkeypatch.setattr(lines, "trace", trace)
+    march_lines(Toy(1.5), 4, 1.0, 1e7)
+    march_lines(Toy(1.5), 10**5, 1.0, 1e7)
+    march_lines(Toy(1.5), 5 * 10**6, 1.0, 1.0)
+    assert asked == [(4, 10**7), (10**5, 10**7), (5 * 10**6, 1)]
+
+
+@pytest.mark.parametrize("wrong", [Toy, 3, object()])
+def test_what_is_no_problem_is_named(wrong):
+    with pytest.raises(TypeError, match=r"^problem must be a Toy, a BackwardHeat or an object with their"):
+        march_lines(wrong, 4, 0.1, 1.0)
+    with pytest.raises(TypeError, match="toy must be a Toy, got"):
+        stable_step(wrong, 4, CENTRAL, RK4)
+
+
+@pytest.mark.parametrize("space", [4, None, {1: CENTRAL[1]}, {1: CENTRAL[1], 2: 3}, [CENTRAL[1], CENTRAL[2]]])
+def test_what_is_no_space_or_time_is_named(space):
+    for call in (lambda: march_lines(Toy(1.5), 4, 0.1, 1.0, space), lambda: stable_step(Toy(1.5), 4, space, RK4)):
+        with pytest.raises(TypeError, match=r"^space must be a table of derivatives such as CENTRAL or FOURIER, got "):
+            call()
+    for call in (
+        lambda: march_lines(Toy(1.5), 4, 0.1, 1.0, CENTRAL, 4),
+        lambda: stable_step(Toy(1.5), 4, CENTRAL, 4),
+    ):
+        with pytest.raises(TypeError, match=r"^time must be a RungeKutta step such as RK4 or RK8, got 4"):
+            call()
+
+
+def test_a_march_and_a_step_are_shown_without_their_arrays():
+    run = march_lines(Toy(1.5), 4, 0.5, 1.0)
+    assert repr(run) == f"Lines(problem={Toy(1.5)!r}, n=4, dt=0.5, t=1.0, time={RK4!r})"
+    assert repr(RK4) == "RungeKutta(name='RK4', order=4, reach=2.6)"
+    for array in RK8.table:
+        assert not array.flags.writeable

@@ -7,9 +7,9 @@ import pytest
 from taylor import PI, REAL, toy_by_taylor
 
 import primer.schemes.reference as module
-from primer import FOURIER, PastHorizon, Reference, Toy, reference
+from primer import FOURIER, RK8, PastHorizon, Reference, Toy, reference
 from primer.schemes import lines
-from primer.schemes.fourier import interpolate
+from primer.schemes.fourier import interpolate, transfer
 
 needs_longdouble = pytest.mark.skipif(np.finfo(REAL).eps > 1e-18, reason="longdouble is no longer than double here")
 
@@ -235,3 +235,155 @@ def test_a_time_that_would_take_for_ever_is_refused(times):
 
 def test_pi_of_the_independent_code():
     assert float(PI) == np.pi
+
+
+def test_the_least_tolerance_is_four_times_the_round_off():
+    """128 units in the last place of |a| + 2."""
+    for toy in (Toy(1.5, 0), Toy(-7.0, 0)):
+        least = 128 * np.finfo(float).eps * (abs(toy.a) + 2)
+        assert reference(toy, 0.0, least).tol == least
+        below = float(np.nextafter(least, 0))
+        with pytest.raises(ValueError, match="tol must be >=") as error:
+            reference(toy, 0.0, below)
+        said = f"tol must be >= {least:.1e} for a = {toy.a:g} in double precision, got {below!r}"
+        assert str(error.value) == said
+
+
+def test_up_to_a_hundred_thousand_times_may_be_asked_for():
+    assert module._times(np.ones(10**5)).size == 10**5
+    with pytest.raises(ValueError, match=r"^t must be at most 100000 times, got 100001$"):
+        module._times(np.ones(10**5 + 1))
+    given = np.array([1, 2])
+    assert module._times(given).dtype == float
+    floats = np.array([1.0, 2.0])
+    assert module._times(floats) is not floats  # they are frozen in the answer
+    with pytest.raises(ValueError, match=r"sequence of them, got array\(\[ ?0., -1.\]\)$"):
+        module._times([0.0, -1.0])
+
+
+def fake_attempt(tried, holds_until):
+    """In place of a march: an error within the tolerance up to a time that depends on the rung."""
+
+    def attempt(toy, times, tol, rung):
+        tried.append((rung, tol))
+        error = np.where(times <= holds_until(rung), 1e-300, 0.5)
+        return np.zeros((times.size, 2, module._POINTS[rung])), error, np.zeros(times.size)
+
+    return attempt
+
+
+def test_points_are_added_until_no_judge_is_left(monkeypatch):
+    """Each rung is allowed a quarter of the last one's error in time. The horizon is the best that was seen."""
+    tried = []
+    monkeypatch.setattr(module, "_attempt", fake_attempt(tried, lambda rung: {1: 1.0, 2: 3.0}.get(rung, 2.0)))
+    with pytest.raises(PastHorizon) as refusal:
+        reference(Toy(1.5), [1.0, 2.0, 3.0, 4.0])
+    assert refusal.value.horizon == 3.0
+    assert str(refusal.value) == (
+        f"t must be <= 3, the horizon of {Toy(1.5)} at tol = 1e-10, got 4: past it neither more points nor fewer give "
+        "an answer to stand behind"
+    )
+    assert tried == [(rung, 1e-10 / 4 ** (rung - 1)) for rung in range(1, len(module._POINTS) - 1)]
+    tried.clear()
+    with pytest.raises(PastHorizon) as refusal:
+        reference(Toy(1.5), [5.0], 1e-6)
+    assert refusal.value.horizon == 0.0
+    assert [rung for rung, _ in tried] == list(range(len(module._POINTS) - 1))
+    tried.clear()
+    found = reference(Toy(1.5), [2.5, 1.0])
+    assert [rung for rung, _ in tried] == [1, 2]
+    assert (found.horizon, found.x.size, found.t.tolist()) == (2.5, module._POINTS[2], [2.5, 1.0])
+
+
+def test_the_horizon_of_a_resolution_to_a_part_in_64(monkeypatch):
+    toy, tried = Toy(0.5), []
+    for end in (0.011, 0.3, 1.0, 7.7, 50.0):
+        monkeypatch.setattr(module, "_attempt", fake_attempt(tried, lambda rung, end=end: end))
+        found = module._holds(toy, 1e-10, 100.0, 2)
+        assert end - max(end / 32, module._step(toy, 1e-10, 24) / 64) <= found <= end
+        assert {tol for _, tol in tried} == {1e-10 / 16}
+        assert {rung for rung, _ in tried} == {2}
+        assert module._holds(toy, 1e-10, end / 3, 2) == end / 3
+    monkeypatch.setattr(module, "_attempt", fake_attempt([], lambda rung: -1.0))
+    assert module._holds(toy, 1e-10, 100.0, 2) == 0
+
+
+def test_an_ill_posed_case_is_searched_to_a_hundred_or_to_the_last_time(monkeypatch):
+    asked = []
+
+    def farthest(toy, tol, until):
+        asked.append(until)
+        return 1, until
+
+    monkeypatch.setattr(module, "_farthest", farthest)
+    assert reference(Toy(0.99, 0.01), 0.5).horizon == 100
+    assert reference(Toy(0.99, 0.01), 0.0).horizon == 100
+    assert asked == [100.0, 100.0]
+    reference(Toy(1.0, 0.01), 0.5)  # the steady state touches zero
+    reference(Toy(0.5, 0.0), 0.5)  # without diffusion nothing is ill posed
+    assert asked == [100.0, 100.0]
+    reference(Toy(1.0, 0.01), 3.0)  # u < 0 for a while
+    assert asked == [100.0] * 3
+
+
+def test_how_many_times_from_the_first_on_are_good():
+    for errors, good in (([0.1, 0.1], 2), ([0.1, 0.3], 1), ([0.3, 0.1], 0), ([0.1, np.nan, 0.1], 1), ([0.2, 0.1], 2)):
+        assert module._good(np.array(errors), 0.2) == good
+
+
+@pytest.mark.parametrize(("a", "eps"), [(1.5, 0.05), (0.9, 0.02)])
+def test_an_attempt_is_what_it_says(a, eps):
+    """Its steps, its error estimate of two marches and the round-off of the top wave, as the docstring of reference."""
+    toy, times, tol, rung = Toy(a, eps), np.array([0.5, 0.75, 4.0]), 1e-9, 1
+    states, error, depth = module._attempt(toy, times, tol, rung)
+    n, finer = 16, 24
+    assert module._POINTS[rung : rung + 2] == (n, finer)
+    for points in (n, finer):
+        stable = lines.stable_step(toy, points, FOURIER, RK8)
+        assert module._step(toy, tol, points) == pytest.approx(min(stable, 0.4 * 10 ** (1 / 8)), rel=1e-14)
+    gaps = np.array([0.5, 0.25, 3.25])
+    few = np.ceil(gaps / module._step(toy, tol, n)).astype(int)
+    many = np.maximum(np.ceil(1.3 * few), np.ceil(gaps / module._step(toy, tol, finer))).astype(int)
+    ours, _ = lines.trace(toy, n, FOURIER, RK8, gaps / few, few)
+    judge, deep = lines.trace(toy, finer, FOURIER, RK8, gaps / many, many)
+    np.testing.assert_array_equal(states, ours)
+    np.testing.assert_array_equal(depth, deep)
+    x = -np.pi + 2 * np.pi / finer * np.arange(finer)
+    apart = np.abs(interpolate(states, x) - judge).max(axis=(1, 2))
+    hadamard = np.exp(eps * 12**2 * deep)
+    np.testing.assert_allclose(error, 2 * apart + 32 * np.finfo(float).eps * (a + 2) * hadamard, rtol=1e-4)
+    assert (deep[-1] > 0) == (a < 1)
+
+
+def test_round_off_that_has_taken_over_leaves_an_error_without_bound():
+    """e^{eps k^2 S} is cut off at e^700, below the largest number."""
+    _, error, depth = module._attempt(Toy(-3.0, 0.5), np.array([0.0, 3.0]), 1e-6, 5)
+    assert depth[0] == 0
+    assert 0 < error[0] < 1e-12
+    assert not error[1] < 1e200
+
+
+def test_more_than_ten_million_steps_are_refused():
+    toy = Toy(1.5)
+    step = module._step(toy, 1e-10, 24)
+    with pytest.raises(ValueError, match="t must be <=") as error:
+        module._attempt(toy, np.array([1.0, 1.0001e7 * step]), 1e-10, 1)
+    said = f"t must be <= {1e7 * step:.3g}, 10000000 steps for {toy}, got {1.0001e7 * step:g}"
+    assert str(error.value) == said
+
+
+@pytest.mark.parametrize("m", [1, 2])
+def test_a_constant_has_no_derivative_whatever_its_size(m):
+    for n in (16, 129):
+        np.testing.assert_array_equal(FOURIER[m](np.full((2, n), 1e17), 2 * np.pi / n), np.zeros((2, n)))
+
+
+def test_the_matrix_between_two_grids_is_the_interpolant():
+    for n, points in ((8, 16), (16, 24), (7, 9), (16, 8)):
+        f = np.random.default_rng(n).normal(size=(3, n))
+        matrix = transfer(n, points)
+        assert matrix.shape == (n, points)
+        grid = -np.pi + 2 * np.pi / points * np.arange(points)
+        np.testing.assert_allclose(f @ matrix, interpolate(f, grid), atol=1e-14)
+        assert not matrix.flags.writeable
+        assert not FOURIER[1].matrix(n).flags.writeable

@@ -17,7 +17,7 @@ LOWEST = -1e300  # stands for a direction without eigenvalues
 FAN = 10.0 ** -np.arange(1, 15, 0.25)  # distances (radians) at which the neighbourhood of such a direction is searched
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class MaxGrowth:
     """The largest growth at |xi| = k and a direction that attains it.
 

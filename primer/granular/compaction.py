@@ -37,7 +37,7 @@ class Compaction:
         object.__setattr__(self, "phi0", real("phi0", self.phi0, above=0, below=1))
         object.__setattr__(self, "eps", real("eps", self.eps, above=0))
         object.__setattr__(self, "C0", real("C0", self.C0, above=0))
-        if self.phi0 + self.eps > 1 + 1e-15:
+        if self.phi0 + self.eps > 1:
             raise ValueError(f"eps must be <= 1 - phi0 (a solids fraction is at most 1), got {self.eps!r}")
 
     def C(self, phi: ArrayLike) -> Numbers:

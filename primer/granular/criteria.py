@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -117,7 +118,7 @@ def neutral_inertial_numbers(friction: FrictionLaw, low: float = 1e-12, high: fl
     def growth(s):
         return np.minimum(incompressible_criterion(friction, np.exp(s)).growth, 1)
 
-    s = np.linspace(np.log(low), np.log(high), round(200 * np.log10(high / low)) + 1)
+    s = np.linspace(np.log(low), np.log(high), 1 + math.ceil(200 * (math.log10(high) - math.log10(low))))
     s = np.unique(np.concatenate([s, _dips(growth, s)]))
     positive = growth(s) > 0
     left, right = s[:-1][positive[1:] != positive[:-1]], s[1:][positive[1:] != positive[:-1]]
@@ -158,7 +159,7 @@ def critical_state(
 def _dips(growth, s):
     """Where a positive local minimum of a scanned function lies, refined by trisection."""
     g = growth(s)
-    j = 1 + np.flatnonzero((g[1:-1] <= g[:-2]) & (g[1:-1] <= g[2:]) & (g[1:-1] > 0) & (g[1:-1] < 1))
+    j = 1 + np.flatnonzero((g[1:-1] < g[:-2]) & (g[1:-1] <= g[2:]) & (g[1:-1] > 0) & (g[1:-1] < 1))
     left, right = s[j - 1], s[j + 1]
     for _ in range(60):
         a, b = left + (right - left) / 3, right - (right - left) / 3

@@ -21,7 +21,7 @@ _REACH = (
     np.concatenate([np.full(25, _STEP), (_OUT - _PREVIOUS)[::-1], [_OUT[0]], _NEXT - _OUT]),
 )
 _BLOCK = 2048  # states at a time: the work arrays then stay in the cache
-_LARGEST = 1e50  # growth rates come from a cubic with coefficients up to k^6
+_LARGEST = 1e20  # the cubic for the growth rates is solved with products up to k^12
 _GOLDEN = (math.sqrt(5) - 1) / 2
 
 

@@ -65,7 +65,7 @@ def _incompressible(c):
     coefficient = np.where(np.abs(c.B) < 1, c.t / c.density * ((1 - n) * T**2 - n), np.inf)
     ill = coefficient > 0
     limit = np.where(ill, np.inf, np.where(coefficient < 0, -np.inf, 0.0))
-    x = np.where(np.abs(c.B) < 1, -T, -1 / np.where(c.B == 0, 1, c.B))
+    x = np.where(np.abs(c.B) < 1, -T, -np.sign(c.B) / np.maximum(np.abs(c.B), 1))
     return Leading(*(v[()] for v in (np.full(np.shape(c.A), 2.0), coefficient, x, ill, limit)))
 
 
@@ -89,10 +89,10 @@ def _compressible(c):
 
     fast, x2 = fastest(replace(c, Y_phi=0 * c.Y_phi, f_phi=0 * c.f_phi), 1.0)
     fast = np.where((c.Gamma == 0) & turned, np.inf, fast)
-    limit, x3 = _bounded_limit(c, d, sign, touching, x0)
     with np.errstate(divide="ignore", invalid="ignore"):
+        limit, x3 = _bounded_limit(c, d, sign, touching, x0)
         one = np.sqrt(-N0 / (c.rho * T0))
-        third = np.cbrt(c.phi * slope**2 / (4 * c.rho * T0 * sign * (c.t - c.A)))
+        third = np.cbrt(c.phi * slope**2 / (4 * c.rho * T0 * (c.t - c.A)))
     cases = [quadratic, linear, drifting, lost]
     return Leading(
         exponent=np.select(cases, [2.0, 1.0, 2 / 3, np.nan], 0.0)[()],

@@ -65,7 +65,7 @@ def neutral_stress_ratio(friction, I):
     Returns
     -------
     array of the shape of I; in terms of pressure the curve is p/C = alpha(I) - T, and where that is negative CIDR is
-    damped at every pressure
+    damped at every pressure; nan where the quartic has no real root, which takes a friction well above 1
     """
     friction, I = as_friction(friction), inertial("I", I)
     mu, s = np.broadcast_arrays(friction.mu(I), I * friction.dmu(I))
@@ -77,8 +77,7 @@ def neutral_stress_ratio(friction, I):
         companion[..., row, 3] = -value / 4
     roots = np.linalg.eigvals(companion)
     T = np.where(np.abs(roots.imag) <= 1e-9 * np.abs(roots), roots.real, -np.inf).max(axis=-1)
-    for _ in range(3):
+    with np.errstate(invalid="ignore"):  # Newton's step for the last three digits
         value = T**2 * (2 * T - s) ** 2 - 16 * (q - T) * (2 * T - q)
         slope = 2 * T * (2 * T - s) * (4 * T - s) - 16 * (3 * q - 4 * T)
-        T = T - value / slope
-    return T[()]
+        return (T - value / slope)[()]

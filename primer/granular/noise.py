@@ -8,7 +8,7 @@ from primer.checks import affordable, integer, real, shown
 from primer.granular.dispersion import growth_rate
 from primer.granular.linearisation import coefficients, reduced
 
-_LARGEST = 1e50  # of a wavenumber: its powers must be finite
+_LARGEST = 1e20  # of a wavenumber: its powers must be finite
 _PARTS = 10  # the growth is measured over the last of this many parts of the time
 
 

@@ -89,7 +89,6 @@ def largest_growth(law: Law, state: BaseState, k: ArrayLike) -> tuple[Numbers, n
 
 def _direction(x):
     """(cos theta, sin theta) from x = cos 2 theta, 0 <= theta <= 90 degrees."""
-    x = np.clip(x, -1, 1)
     return np.stack([np.sqrt((1 + x) / 2), np.sqrt((1 - x) / 2)])
 
 

@@ -15,7 +15,7 @@ _SMALLEST = float(np.finfo(np.float32).tiny)  # a smaller step would be 0 in sin
 MAX_WORK = 10**13  # grid points times steps: a run of more, which takes hours, is refused before it starts
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Plan:
     """What :func:`primer.ftcs` was asked for, checked, in whole steps; see there for the arguments."""
 
@@ -85,7 +85,7 @@ def plan(n, dt, t_end, record_every, snapshots, seed, blow_up_at, dtype, digits)
     )
     snapshots = sequence("snapshots", snapshots, "times")
     times = tuple(sorted({real("snapshots", time, least=0, most=t_end) for time in snapshots}))
-    shot_steps = np.array([min(round(time / dt), steps) for time in times], dtype=np.int64)
+    shot_steps = np.array([round(time / dt) for time in times], dtype=np.int64)
     blow_up_at = real("blow_up_at", blow_up_at, above=0, most=numbers.largest**0.5)
     return Plan(grid, numbers, dt, steps, every, times, shot_steps, _seed(grid, seed), blow_up_at)
 

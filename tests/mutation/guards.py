@@ -58,7 +58,8 @@ class Watch:
 def guards(known, file, first, last, cap):
     """The tests to run, in three helpings: a few of those of the changed lines, the rest of them, those of the file.
 
-    For compiled lines, which are not seen, they are those of the caller; for constants alone those of the folder.
+    For compiled lines, which are not seen, they are those of the caller and what runs them uncompiled; for constants
+    alone those of the folder.
     """
     folder, name = file.rsplit("/", 1)
     near = known["lines"].get(f"{folder}/{CALLER.get(name, name)}", {})
@@ -66,7 +67,8 @@ def guards(known, file, first, last, cap):
         files = [lines for other, lines in known["lines"].items() if other.startswith(folder)]
         near = {f"{n} {k}": tests for n, lines in enumerate(files) for k, tests in lines.items()}
     elif name in CALLER:
-        near = {f"caller {k}": tests for k, tests in near.items()}
+        plain = known["lines"].get(file, {})
+        near = {f"caller {k}": tests for k, tests in near.items()} | plain
     by_file = {test for tests in near.values() for test in tests}
     by_file |= {test for test in known["seconds"] if test.endswith(HOUSE)}
     by_line = {test for k in range(first, last + 1) for test in near.get(str(k), ())}
