@@ -224,6 +224,20 @@ def test_only_polynomials_of_degree_8_or_less_come_back():
     assert recovered(Pencil(lambda xi: [[xi[0] ** 9 + xi[1]]], [[1]], dim=2)) is None
 
 
+def test_the_symbol_of_a_grid_is_not_a_polynomial_however_fine_the_grid():
+    for h in (1e-6, 1e-4, 1e-3, 0.01, 0.0628, 0.1, 0.3, 1.0):
+        assert recovered(one_by_one(lambda xi, h=h: (2 * np.sin(h * xi / 2) / h) ** 2)) is None, h
+        assert recovered(one_by_one(lambda xi: xi**2, lambda xi, h=h: 1 + np.tanh(h * xi) ** 2)) is None, h
+        assert recovered(Pencil(lambda k, h=h: [[k[0] ** 2 + np.cos(h * k[1])]], [[1]], dim=2)) is None, h
+
+
+def test_a_small_leading_coefficient_is_kept():
+    for size in (1e-3, 1e-6, 1e-9, 1e-11):
+        back = recovered(one_by_one(lambda xi, size=size: xi**2 + 1 - size * xi**8)).entries[0][0]
+        assert back.keys() == {(0, 0, 0), (0, 2, 0), (0, 8, 0), (1, 0, 0)}
+        assert back[0, 8, 0].real == pytest.approx(-size, rel=3e-14 / size)  # against a largest one of 1
+
+
 def test_coefficients_below_the_rounding_of_their_entry_are_left_out():
     kept, lost = 3e-12, 3e-13
 
