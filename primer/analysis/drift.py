@@ -140,8 +140,7 @@ class _Search:
         """Real tau where the Newton polygon of a faster law than ``best`` degenerates."""
         family: dict = {}
         for (i, j, l), c in F.items():
-            column = family.setdefault((i, j - r * l), {})
-            column[l] = column.get(l, 0) + c
+            family.setdefault((i, j - r * l), {})[l] = c
         family = {power: [column.get(l, mp.mpc(0)) for l in range(max(column) + 1)] for power, column in family.items()}
         hull = hull_of(family)
         found = []
@@ -155,7 +154,7 @@ class _Search:
             meeting = resultant(edge, mirror)
             if not meeting:  # purely imaginary throughout: then where branches meet
                 slope = [[n * c for c in p] for n, p in enumerate(edge)][1:]
-                meeting = resultant(edge, slope) if len(slope) > 1 else []
+                meeting = resultant(edge, slope)
             found += _real_roots(meeting)
         distinct: list = []
         for tau in sorted(tau if abs(tau) > REAL else mp.mpf(0) for tau in found):
@@ -165,9 +164,8 @@ class _Search:
 
 
 def _real_roots(p):
-    if sum(c != 0 for c in p) < 2:
-        return [mp.mpf(0)] if len(p) > 1 and p[0] == 0 else []
-    return [z.real for z, _ in roots(p) if abs(mp.im(z)) <= REAL * (1 + abs(z))]
+    found = roots(p) if p else []
+    return [z.real for z, _ in found if abs(z.imag) <= REAL * (1 + abs(z))]
 
 
 def _facets(F):
