@@ -11,7 +11,7 @@ import sympy as sp
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from primer import growth_laws
+from primer import Pencil, growth_laws
 from primer.analysis.puiseux import (
     Branch,
     Law,
@@ -24,7 +24,11 @@ from primer.analysis.puiseux import (
 )
 from primer.analysis.roots import ZERO
 from primer.analysis.symbol import Symbol
+from primer.analysis.symbolic import symbol as symbol_of
+from primer.analysis.text import PDEError
 
+WAVES = Pencil(lambda xi: np.array([[0, -2j * xi], [-2j * xi, 0]]), np.eye(2))
+SINE = Pencil(lambda xi: [[np.sin(xi)]], [[1]])
 DIGITS = 200  # of the second route: enough that a double root, or roots 70 decades apart, come out
 
 
@@ -176,6 +180,54 @@ def test_multiple_branches():
 def test_bad_directions(direction):
     with pytest.raises((ValueError, TypeError), match="direction"):
         growth_laws("u_t = u_xx + u_yy", direction)
+
+
+TEXT_ONLY = " go with equations as text only"
+
+
+@pytest.mark.parametrize(
+    ("pde", "arguments", "error", "sentence"),
+    [
+        ("u_t = u_xx", {"direction": 0}, ValueError, "direction must be 1 number(s), not all zero, got 0"),
+        ("u_t = u_xx", {"direction": (1, 2)}, ValueError, "direction must be 1 number(s), not all zero, got (1, 2)"),
+        ("u_t = u_yy", {"direction": 1}, ValueError, "direction must be 2 number(s), not all zero, got 1"),
+        (3, {}, TypeError, "equations must be given as text, or as a Pencil, got int"),
+        (WAVES, {"at": {}}, TypeError, "base-state values, order and parameters" + TEXT_ONLY),
+        (WAVES, {"order": "maximal"}, TypeError, "base-state values, order and parameters" + TEXT_ONLY),
+        (WAVES, {"a": 1}, TypeError, "base-state values, order and parameters" + TEXT_ONLY),
+        (SINE, {}, ValueError, "the entries of the pencil are not polynomials in xi of degree 8 or less"),
+        (
+            "u_t + v_t = u_x; u_t + v_t = u_x", {}, PDEError,
+            "the linearised equations do not determine the unknowns: det(lambda E + S) vanishes identically",
+        ),
+        ("u_t = v_x; u_x = 0", {}, PDEError,
+         "the constraints leave nothing that evolves: no perturbation has a growth rate"),
+    ],
+)  # fmt: skip
+def test_what_has_no_laws_is_said(pde, arguments, error, sentence):
+    with pytest.raises(error) as caught:
+        growth_laws(pde, **arguments)
+    assert str(caught.value) == sentence
+
+
+def test_the_same_laws_from_a_text_a_symbol_and_a_pencil():
+    for pde in ("u_tt = 4*u_xx", symbol_of("u_tt = 4*u_xx"), WAVES):
+        assert sorted(b.coefficient.imag for b in growth_laws(pde)) == [-2, 2]
+        assert {b.exponent for b in growth_laws(pde)} == {1}
+
+
+def test_only_the_direction_of_a_direction_counts():
+    """lambda = a - 2 b + 3 a b - 5 a b^2 for xi = (a, b): odd powers change sign with it, and 0.1 is a tenth."""
+    text = "u_t = -i*u_x + 2i*u_y - 3*u_xy - 5i*u_xyy"
+    for a, b in ((0.6, 0.8), (-0.6, 0.8), (0.6, -0.8), (-0.6, -0.8)):
+        for length in (1, 10, 0.125):
+            (law,) = growth_laws(text, (a * length, b * length))
+            assert law.coefficient == pytest.approx(-5 * a * b**2, rel=1e-14)
+    assert growth_laws(text)[0].coefficient == 1  # along (1, 0)
+    assert growth_laws(text, (0, -2))[0].coefficient == 2
+    assert growth_laws("u_t = i*u_x", -3)[0].coefficient == 1
+    (tenths,) = growth_laws("u_t = -3i*u_x + i*u_y - u_xxxx*0", (0.1, 0.3))  # 3 a - b, exactly zero there
+    assert (tenths.law.coefficient, tenths.is_exact) == (0, True)
 
 
 def test_laws_along_a_direction():

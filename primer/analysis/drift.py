@@ -53,7 +53,7 @@ def worst_law(D, real, hints=()):
     law, sign, slope, r = min((item for item in found if item[0].is_near(top)), key=_plainness)
     stretch = mp.sqrt(1 + slope**2)
     x, y = (0.0, 1.0) if slope == mp.inf else (float(1 / stretch), float(slope / stretch))
-    return Worst(law, (sign * x, sign * y), r)
+    return Worst(law, (sign * x + 0.0, sign * y + 0.0), r)  # 0, not -0
 
 
 def _plainness(item):
