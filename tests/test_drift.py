@@ -94,6 +94,14 @@ def test_growth_along_a_curve_of_more_terms_than_are_followed_is_not_denied():
     assert "was computed" in found.reason
 
 
+@pytest.mark.parametrize(("a", "b"), [(2, 3), (0.5, 1.5), (-7, -6.9)])
+def test_growth_confined_between_two_curves(a, b):
+    """lambda^2 = (xi_2^2 - a xi_1)(b xi_1 - xi_2^2): growth (b - a) |xi_1|/2 midway between two parabolas."""
+    found = verdict(f"u_tt = (({a}) + ({b}))*i*u_xyy - u_yyyy + ({a})*({b})*u_xx")
+    assert (found.kind, found.exponent, found.coefficient) == ("ill-posed", 1, pytest.approx((b - a) / 2, rel=1e-9))
+    assert found.direction == (np.sign(a), 0)
+
+
 # ---------------------------------------------------------------- the steps of the search, one by one
 
 
@@ -249,9 +257,10 @@ def test_a_family_is_followed_up_where_it_is_special(many_digits):
     search = Follower()
     search.found = [(Law(Fraction(0), 0.0), 0, 0)]
     search.family(FALLING, HALF, 2, mp.mpf(3))
-    (law, slope, r) = search.found[-1]
-    assert (law.exponent, slope, r) == (1, 3, HALF)
-    assert law.coefficient == pytest.approx(10**-0.5, rel=1e-3)  # at tau = 0 nearly
+    assert len(search.found) == 3
+    for (law, slope, r), allowed in zip(search.found[1:], (1e-3, 1e-14), strict=True):  # by the scan; midway
+        assert (law.exponent, slope, r) == (1, 3, HALF)
+        assert law.coefficient == pytest.approx(10**-0.5, rel=allowed)
     for (F, r, depth, towards), tau in zip(search.seen, (-1, 1), strict=True):
         assert (r, depth, towards) == (HALF, 1, 3)
         # lambda - k + k^2 (tau k^-1/2 + t)^2
@@ -260,7 +269,7 @@ def test_a_family_is_followed_up_where_it_is_special(many_digits):
     search.found, search.seen = [(Law(Fraction(0), 0.0), 0, 0)], []
     search.family(FALLING, HALF, 0, mp.mpf(3))  # no deeper: the special values themselves
     assert search.seen == []
-    assert [(law.coefficient, slope, r) for law, slope, r in search.found[2:]] == [(0, 3, HALF)] * 2
+    assert [(law.coefficient, slope, r) for law, slope, r in search.found[3:]] == [(0, 3, HALF)] * 2
 
 
 def test_the_family_of_directions_themselves(many_digits):

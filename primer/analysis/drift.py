@@ -89,7 +89,9 @@ class _Search:
             return mp.tan(s) if slope is None else mp.sign(s) * mp.exp(abs(s) - 5)
 
         def law(s):
-            tau = value(s)
+            return law_at(value(s))
+
+        def law_at(tau):
             found = self.law(F, r, tau)
             stretch = float(mp.sqrt(1 + tau**2)) if slope is None else 1.0
             return Law(found.exponent, found.coefficient * stretch ** -float(found.exponent))
@@ -102,7 +104,12 @@ class _Search:
         else:
             s = _highest(law, np.array([-10, -7, -5.3, -3, 3.1, 4.9, 7, 10]), self.best())
             self.add(self.law(F, r, value(s)), slope, r)
-        for tau in self.special(F, r, self.best()):
+        special = self.special(F, r, self.best())
+        for low, high in pairwise(special):  # where growth is confined between two, all the values tried may miss it
+            if law_at((low + high) / 2) > self.best():
+                tau = _highest(law_at, np.linspace(low, high, 9)[1:-1], None)
+                self.add(self.law(F, r, tau), tau if slope is None else slope, r)
+        for tau in special:
             if slope is None or tau != 0:
                 moved, towards = shifted_by(F, tau, -r, 2), tau if slope is None else slope
                 if depth:
