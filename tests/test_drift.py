@@ -327,7 +327,7 @@ def test_the_highest_place_is_sought_ever_more_finely():
         assert abs(_highest(law, s, Law(Fraction(1), 100.0)) - top) < 2e-8
         nearest = s[np.argmin(abs(s - top))]
         assert _highest(law, s, Law(Fraction(3), 0.1)) == nearest  # there is none
-    uneven, _ = peak(lambda x: 9 - abs(x - 5))
+    uneven, _ = peak(lambda x: 3 - abs(x - 5))  # the best of the four is zero
     assert abs(_highest(uneven, np.array([0.0, 1.0, 2.0, 9.0]), None) - 5) < 2e-8
 
 
@@ -344,7 +344,7 @@ def test_a_pole_is_not_followed_for_ever():
     law, asked = peak(lambda x: 1 / abs(x - 0.301))
     _highest(law, np.linspace(-1, 1, 9), None)
     sizes = [law(x).coefficient for x in tuple(asked)]
-    enough = 1e4 * max(sizes[:9]) + 1
+    enough = 1e4 * max(sizes[:9])
     assert max(sizes[:-2]) < enough <= max(sizes[-2:])
 
 

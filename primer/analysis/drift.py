@@ -201,8 +201,8 @@ def _highest(law, s, rival):
     centre, top, width = s[best], laws[best], np.diff(s).max()
     if all(other.is_near(top) for other in laws) or (rival and top.key[:2] < rival.key[:2]):
         return centre
-    start = abs(top.coefficient)
-    while width > 1e-8 and abs(top.coefficient) < 1e4 * start + 1:  # no further towards a pole: a special direction
+    start = max(1, abs(top.coefficient))
+    while width > 1e-8 and abs(top.coefficient) < 1e4 * start:  # no further towards a pole: a special direction
         for x in (centre - width / 2, centre + width / 2):
             trial = law(x)
             if trial > top:
