@@ -13,7 +13,7 @@ import sympy as sp
 
 from primer import BackwardHeat, Toy, growth_rates, linearise, verdict
 from primer.analysis.linear import read
-from primer.analysis.symbolic import pencil
+from primer.analysis.symbolic import _tidied, pencil, symbol
 from primer.analysis.text import PDEError, parse
 from primer.schemes.grid import Grid
 
@@ -455,3 +455,89 @@ def test_the_derivative_of_a_bracket_may_grow_to_some_length_only():
     assert sp.expand(slopes["u", (0, 0, 0)] + 2 * k) == 0
     assert sp.expand(slopes["u", (1, 2, 0)] + x**2 * t * k) == 0
     assert sp.expand(slopes["u", (0, 1, 0)] + 4 * x * k) == 0
+
+
+@pytest.mark.parametrize(
+    ("text", "entries"),  # {(time, x, y derivatives): coefficient} of left - right
+    [
+        ("u_t = 2*u_xx + 3*u_x - u", ({(1, 0, 0): 1, (0, 2, 0): -2},)),
+        ("u_t + u_xt - u_xxt = u_x + 2*u", ({(1, 2, 0): -1, (0, 1, 0): -1},)),  # for each order in time
+        ("u_t = u_xy + u_yy + u_x", ({(1, 0, 0): 1, (0, 1, 1): -1, (0, 0, 2): -1},)),
+        ("u_tt + u_t = a*u_xxxx + u_xx", ({(2, 0, 0): 1, (1, 0, 0): 1, (0, 2, 0): -1},)),  # a = 0 is not the highest
+    ],
+)
+def test_the_maximal_order_keeps_the_highest_space_derivatives_of_each_order_in_time(text, entries):
+    values = {"a": 0} if "a*" in text else {}
+    found = symbol(text, order="maximal", **values)
+    assert found.entries == (entries,)
+    assert found.dim == (2 if "y" in text else 1)
+    kept = linearise(text, order="maximal", **values)
+    if "u_tt" not in text:
+        assert sp.simplify(kept[0] - linearise_by_hand(entries[0])) == 0
+
+
+def linearise_by_hand(entry):
+    """A of lambda q = A q from one entry of first order in time."""
+    waves = {powers: (sp.I * (xi_1 if powers[2] else xi)) ** powers[1] * (sp.I * xi_2) ** powers[2] for powers in entry}
+    if any(b for _, _, b in entry):
+        waves = {(n, a, b): (sp.I * xi_1) ** a * (sp.I * xi_2) ** b for n, a, b in entry}
+    parts = [sum(c * waves[powers] for powers, c in entry.items() if powers[0] == n) for n in (0, 1)]
+    return -parts[0] / parts[1]
+
+
+@pytest.mark.parametrize(
+    ("text", "arguments", "sentence"),
+    [
+        (TOY, {}, "not given: base-state values u, v_xx (at={'u': ..., 'v_xx': ...}) and parameters eps=..."),
+        (TOY, {"eps": 1}, "not given: base-state values u, v_xx (at={'u': ..., 'v_xx': ...})"),
+        (TOY, {"at": AT}, "not given: parameters eps=..."),
+        (TOY, {"order": "maximal"}, "not given: base-state values u (at={'u': ...}) and parameters eps=..."),
+        ("u_t = b*u_xx + a*u", {}, "not given: parameters b=..., a=..."),
+        ("u_t = b*u_xx + a*u", {"order": "maximal"}, "not given: parameters b=..."),
+        ("u_t = b*u_xx + a*u", {"order": "maximal", "b": 0}, "not given: parameters a=..."),
+        ("a*u_t = u_x", {"a": 0}, "no equation contains a time derivative (u_t), so nothing evolves"),
+    ],
+)
+def test_what_is_missing_in_full(text, arguments, sentence):
+    with pytest.raises(PDEError) as caught:
+        symbol(text, **arguments)
+    assert str(caught.value) == sentence
+
+
+def test_a_multiplier_is_asked_once_for_each_order_before_it_is_used():
+    asked = []
+    system = pencil("u_t = u_xxy + u_yy + u", multiplier=lambda k, m: asked.append((np.array(k), m)) or (1j * k) ** m)
+    assert asked[:2] == [(np.array([1.0]), 1), (np.array([1.0]), 2)]
+    assert {m for _, m in asked} == {1, 2}
+    assert growth_rates("u_t = u_xxy + u_yy + u", [2.0, 3.0]) == pytest.approx(system.eigenvalues([2.0, 3.0]))
+
+    def refuses(k, m):
+        raise NotImplementedError
+
+    for bad in (refuses, lambda k, m: {1: k}[m], lambda k, m: [].index(m)):
+        with pytest.raises(PDEError, match=r"^the multiplier does not know the derivative of order 2 that the eq"):
+            pencil("u_t = u_xx + u", multiplier=bad)
+
+
+def test_up_to_three_equations_are_solved_for_their_time_derivatives():
+    """E q_t + S q = 0 with E a constant matrix; S = diag(xi^2, 2 i xi, 3 ...) keeps what multiplies what."""
+    lines = ["2*u_t + v_t = u_xx", "v_t - u_t = 3*v_x", "w_t = w", "r_t = r"]
+    E, S = sp.Matrix([[2, 1], [-1, 1]]), sp.diag(xi**2, -3 * sp.I * xi)
+    for size in (2, 3):
+        found = linearise("; ".join(lines[:size]))
+        assert (found[:2, :2] - E.inv() * -S).applyfunc(sp.simplify).is_zero_matrix
+        assert size == 2 or (found[2, 2], found[0, 2], found[2, 0]) == (1, 0, 0)
+    whole = linearise("; ".join(lines))
+    assert (whole[:2, :2] - (lam * E + S)).applyfunc(sp.simplify).is_zero_matrix
+    assert whole[3, 3] == lam - 1
+    simple = linearise("; ".join(f"{c}_t = {n}*{c}" for n, c in enumerate("abcd")))
+    assert simple == sp.diag(0, 1, 2, 3)
+
+
+def test_long_entries_are_left_as_they_are():
+    x, c, d = sp.symbols("x c d")
+    short = (x**2 - 1) / (x - 1) + sum(x**n for n in range(3, 50)) + c
+    long = short + d
+    assert (short.count_ops(), long.count_ops()) == (99, 100)
+    assert _tidied(short) == sp.cancel(short) != short
+    assert _tidied(long) is long

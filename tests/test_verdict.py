@@ -7,6 +7,7 @@ import math
 import time
 from fractions import Fraction
 
+import mpmath as mp
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -14,10 +15,11 @@ from hypothesis import strategies as st
 from test_pencil import critical_state, granular, navier_stokes
 
 import primer.analysis.supremum as supremum
+import primer.analysis.verdict as judge
 from primer import Pencil, Verdict, growth_rates, max_growth, verdict
 from primer.analysis.laws import exact_symbol
 from primer.analysis.text import PDEError
-from primer.analysis.verdict import _along_line
+from primer.analysis.verdict import _along_line, _is_real
 
 ILL, WELL = "ill-posed", "well-posed"
 TOY = "u_t = v_x; v_t = eps*u*v_xx + u_x - v - sin(x)"
@@ -266,6 +268,114 @@ def test_the_size_of_an_equation_does_not_matter(size):
     plain = verdict("u_t = v_x; v_t = w - v; w = 1e-60*u" if size == "1e-60" else "u_t = v_x; v_t = w - v; w = 1e60*u")
     assert (found.kind, found.exponent, found.coefficient) == (plain.kind, plain.exponent, plain.coefficient)
     assert found.kind == ILL
+
+
+WITHOUT_BOUND = ": the shorter the wave the faster it grows, without bound"
+
+
+@pytest.mark.parametrize(
+    ("text", "reason"),
+    [
+        ("u_t = -u_xx", f"Re lambda ~ 1 |xi|^2 as |xi| -> infinity{WITHOUT_BOUND}."),
+        (
+            "u_t = u_xx - 2*u_yy",
+            f"Re lambda ~ 2 |xi|^2 as |xi| -> infinity in the direction (0, 1){WITHOUT_BOUND}.",
+        ),
+        (
+            "u_t = u_yy - u_xxxx - 2i*u_xxy - i*u_x",  # growth xi_1 on xi_2 = -xi_1^2, as in test_drift
+            "Re lambda ~ 1 |xi|^(1/2) as |xi| -> infinity in the direction (0, -1), approached like |xi|^-1/2"
+            f"{WITHOUT_BOUND}.",
+        ),
+        (
+            "u_t = i*u_x + 0*u_yy",
+            f"Re lambda ~ 1 |xi| as |xi| -> infinity in the direction (-1, 0){WITHOUT_BOUND}.",
+        ),
+        (
+            "u_t = -u_xx - u_xxxx",
+            "Growth is bounded by 0.25, reached near |xi| = 0.7071 (for short waves Re lambda ~ -1 |xi|^4): "
+            "an instability, but not ill-posedness.",
+        ),
+        (
+            "u_t = v_x + u; v_t = u_x + v",  # at every wavenumber alike; the first of equal ones is at 0
+            "Growth is bounded by 1, reached near |xi| = 0 (for short waves Re lambda -> 1): "
+            "an instability, but not ill-posedness.",
+        ),
+        (
+            "u_t - u_xxt = -2*u_xx",  # 2 xi^2/(1 + xi^2)
+            "Growth is bounded by 2, reached as |xi| -> infinity (for short waves Re lambda -> 2): "
+            "an instability, but not ill-posedness.",
+        ),
+        ("u_t = u_x", "No perturbation grows: Re lambda <= 0 (for short waves Re lambda vanishes)."),
+        ("u_t = u_xx - u", "No perturbation grows: Re lambda <= -1 (for short waves Re lambda ~ -1 |xi|^2)."),
+        (
+            "u_t + u_xxt = u_xx",
+            "Growth is unbounded near |xi| = 1, where a time derivative drops out (for short waves Re lambda -> 1).",
+        ),
+    ],
+)
+def test_the_reason_in_full(text, reason):
+    assert verdict(text).reason == reason
+
+
+def test_an_undecided_verdict_claims_nothing():
+    found = verdict(Pencil(lambda xi: [[np.sin(xi)]], [[1]]))
+    assert found.reason == "The entries of the pencil are not polynomials in xi of degree 8 or less."
+    assert (found.kind, found.direction, found.unstable) == ("undecided", (), False)
+    assert all(map(math.isnan, (found.exponent, found.coefficient, found.bound)))
+
+
+@pytest.mark.parametrize(
+    ("text", "seen", "doubt"),  # growth seen at |xi| = 1e5 and 1e7; the laws' own are 0, and 1e14 at 1e7
+    [
+        ("u_t = u_xx + u_yy", (1.0, 2.0), False),
+        ("u_t = u_xx + u_yy", (1.0, 2.1), True),
+        ("u_t = u_xx + u_yy", (-5.0, -1.0), False),
+        ("u_t = u_xx + u_yy", (-5.0, 1.0), True),
+        ("u_t = -u_xx - u_yy", (1.0, 1.2 * 1e7**2.0), False),  # a fifth more than the law is allowed
+        ("u_t = -u_xx - u_yy", (1.0, 1.21e14), True),
+        ("u_t = -u_xx - u_yy", (1e14, 2e14), False),  # twice as much at a hundred times the wavenumber
+        ("u_t = -u_xx - u_yy", (1e14, 2.1e14), True),
+    ],
+)
+def test_computed_growth_beyond_the_law_is_said(text, seen, doubt, monkeypatch):
+    asked = []
+    monkeypatch.setattr(judge, "exact_growth", lambda symbol, xi: asked.append(xi) or seen[len(asked) - 1])
+    found = verdict(text)
+    assert [math.hypot(*xi) for xi in asked] == pytest.approx([1e5, 1e7], rel=1e-14)
+    said = [f"{max(rate, 0.0):.4g}" for rate in seen]
+    words = f", but growth of {said[0]} at |xi| = 100000 and {said[1]} at 1e+07 was computed" if doubt else ""
+    if "-" in text:
+        direction = "in the direction (1, 0)"
+        assert found.reason == f"Re lambda ~ 1 |xi|^2 as |xi| -> infinity {direction}{WITHOUT_BOUND}{words}."
+    elif doubt:
+        assert found.reason == f"The Newton polygon gives Re lambda ~ -1 |xi|^2{words}."
+    assert found.kind == (ILL if "-" in text else "undecided" if doubt else WELL)
+
+
+def test_whether_xi_and_minus_xi_grow_alike():
+    """Coefficients c of lambda^n xi^(a+b): i^(a+b) c is real, but for a common factor and a power of xi."""
+    rng = np.random.default_rng(4)
+    with mp.workdps(60):
+        for _ in range(60):
+            powers = {tuple(map(int, rng.integers(0, 4, 3))) for _ in range(5)}
+            factor, odd = (
+                mp.mpc(*rng.normal(size=2)) * mp.mpf(10) ** int(rng.integers(-60, 60)),
+                int(rng.integers(0, 2)),
+            )
+            D = {(n, a + odd, b): factor * mp.mpc(0, 1) ** (a + b) * rng.normal() for n, a, b in powers}
+            assert _is_real(D)
+            for power, c in D.items():
+                for part, real in ((0.1, False), (1e-29, False), (1e-31, True)):
+                    assert _is_real(D | {power: c * (1 + part * mp.mpc(0, 1))}) is (real or len(D) == 1)
+
+
+@pytest.mark.parametrize(
+    ("text", "direction"),
+    [("u_t = -u_xx + i*u", 1), ("u_t = -u_xx + u", 1), ("u_t = i*u_xxx", 1), ("u_t = -i*u_xxx", -1)],
+)
+def test_the_positive_side_is_named_where_both_grow_alike(text, direction):
+    """Growth xi^2 is the same on both sides, whether the equation is real or not; i (i xi)^3 = xi^3 is not."""
+    assert verdict(text).direction == (direction,)
 
 
 def test_a_verdict_takes_moments():

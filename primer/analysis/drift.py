@@ -53,7 +53,7 @@ def worst_law(D, real, hints=()):
     law, sign, slope, r = min((item for item in found if item[0].is_near(top)), key=_plainness)
     stretch = mp.sqrt(1 + slope**2)
     x, y = (0.0, 1.0) if slope == mp.inf else (float(1 / stretch), float(slope / stretch))
-    return Worst(law, (sign * x, sign * y), r)
+    return Worst(law, (sign * x + 0.0, sign * y + 0.0), r)  # 0, not -0
 
 
 def _plainness(item):
@@ -89,7 +89,9 @@ class _Search:
             return mp.tan(s) if slope is None else mp.sign(s) * mp.exp(abs(s) - 5)
 
         def law(s):
-            tau = value(s)
+            return law_at(value(s))
+
+        def law_at(tau):
             found = self.law(F, r, tau)
             stretch = float(mp.sqrt(1 + tau**2)) if slope is None else 1.0
             return Law(found.exponent, found.coefficient * stretch ** -float(found.exponent))
@@ -102,7 +104,12 @@ class _Search:
         else:
             s = _highest(law, np.array([-10, -7, -5.3, -3, 3.1, 4.9, 7, 10]), self.best())
             self.add(self.law(F, r, value(s)), slope, r)
-        for tau in self.special(F, r, self.best()):
+        special = self.special(F, r, self.best())
+        for low, high in pairwise(special):  # where growth is confined between two, all the values tried may miss it
+            if law_at((low + high) / 2) > self.best():
+                tau = _highest(law_at, np.linspace(low, high, 9)[1:-1], None)
+                self.add(self.law(F, r, tau), tau if slope is None else slope, r)
+        for tau in special:
             if slope is None or tau != 0:
                 moved, towards = shifted_by(F, tau, -r, 2), tau if slope is None else slope
                 if depth:
@@ -140,8 +147,7 @@ class _Search:
         """Real tau where the Newton polygon of a faster law than ``best`` degenerates."""
         family: dict = {}
         for (i, j, l), c in F.items():
-            column = family.setdefault((i, j - r * l), {})
-            column[l] = column.get(l, 0) + c
+            family.setdefault((i, j - r * l), {})[l] = c
         family = {power: [column.get(l, mp.mpc(0)) for l in range(max(column) + 1)] for power, column in family.items()}
         hull = hull_of(family)
         found = []
@@ -155,7 +161,7 @@ class _Search:
             meeting = resultant(edge, mirror)
             if not meeting:  # purely imaginary throughout: then where branches meet
                 slope = [[n * c for c in p] for n, p in enumerate(edge)][1:]
-                meeting = resultant(edge, slope) if len(slope) > 1 else []
+                meeting = resultant(edge, slope)
             found += _real_roots(meeting)
         distinct: list = []
         for tau in sorted(tau if abs(tau) > REAL else mp.mpf(0) for tau in found):
@@ -165,9 +171,8 @@ class _Search:
 
 
 def _real_roots(p):
-    if sum(c != 0 for c in p) < 2:
-        return [mp.mpf(0)] if len(p) > 1 and p[0] == 0 else []
-    return [z.real for z, _ in roots(p) if abs(mp.im(z)) <= REAL * (1 + abs(z))]
+    found = roots(p) if p else []
+    return [z.real for z, _ in found if abs(z.imag) <= REAL * (1 + abs(z))]
 
 
 def _facets(F):
@@ -196,8 +201,8 @@ def _highest(law, s, rival):
     centre, top, width = s[best], laws[best], np.diff(s).max()
     if all(other.is_near(top) for other in laws) or (rival and top.key[:2] < rival.key[:2]):
         return centre
-    start = abs(top.coefficient)
-    while width > 1e-8 and abs(top.coefficient) < 1e4 * start + 1:  # no further towards a pole: a special direction
+    start = max(1, abs(top.coefficient))
+    while width > 1e-8 and abs(top.coefficient) < 1e4 * start:  # no further towards a pole: a special direction
         for x in (centre - width / 2, centre + width / 2):
             trial = law(x)
             if trial > top:

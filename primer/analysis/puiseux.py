@@ -42,7 +42,7 @@ class Law:
         q = self.exponent
         if not self.coefficient or not q:
             return f"Re lambda -> {self.coefficient:.6g}"
-        power = "" if q == 1 else f"^{q}" if q.denominator == 1 and q > 0 else f"^({q})"
+        power = "" if q == 1 else f"^{q}" if str(q).isdigit() else f"^({q})"
         return f"Re lambda ~ {self.coefficient:.6g} |xi|{power}"
 
     def is_near(self, other):
@@ -113,8 +113,8 @@ def far_enough(P):
     """
     hull = hull_of(P)
     n, degree = hull[-1]
-    largest = max([(j - j2) / (i2 - i) for (i, j), (i2, j2) in pairwise(hull)], default=0)
-    return -(2 * n * degree + (n**2 - 1) * max(largest, 0))
+    largest = max([0, *((j - j2) / (i2 - i) for (i, j), (i2, j2) in pairwise(hull))])
+    return -(2 * n * degree + (n**2 - 1) * largest)
 
 
 def is_conservative(P):

@@ -85,7 +85,7 @@ def split_name(name):
 def _marked(text, place):
     """The line of the text that holds the place, cut to a window, and a caret under it."""
     start = text.rfind("\n", 0, place) + 1
-    line, column = text[start:].split("\n", 1)[0], place - start
+    line, column = text[start:].partition("\n")[0], place - start
     left = max(0, column - 50)
     shown = "".join(c if c.isprintable() else " " for c in line[left : left + 80])
     return f"    {shown}\n    {' ' * (column - left)}^"
@@ -99,13 +99,13 @@ def _tokens(text):
         if kind == "imaginary":
             kind, value = "number", match["number"]
         if kind == "name" and not value.isidentifier():
-            odd = next(n for n in range(1, len(value) + 1) if not value[:n].isidentifier())
-            raise PDEError(f"unexpected character {value[odd - 1]!r}", text, match.start("name") + odd - 1)
+            odd = next(n for n, _ in enumerate(value) if not value[: n + 1].isidentifier())
+            raise PDEError(f"unexpected character {value[odd]!r}", text, match.start("name") + odd)
         if kind == "name" and ("__" in value or value.endswith("_")):
             raise PDEError("a name with two underscores together, or with one at its end", text, match.start("name"))
         if kind == "name" and len(value) > NAME:
             raise PDEError(f"a name longer than the {NAME} characters allowed", text, match.start("name"))
-        start, place, count = match.start("number" if kind == "number" else kind), match.end(), count + 1
+        start, place, count = match.start(kind), match.end(), count + 1
         depth += (value == "(") - (value == ")")
         if count > TOKENS:
             raise PDEError(f"the text has more than the {TOKENS} symbols allowed", text, start)
@@ -120,7 +120,7 @@ def _tokens(text):
 
 def _begins_equation(text, place):
     """Whether the line that starts here is not the continuation of the one before: it has its own left side."""
-    left, equals, _ = re.split("[;\n]", text[place:], maxsplit=1)[0].partition("=")
+    left, equals, _ = re.split("[;\n]", text[place:])[0].partition("=")
     return bool(equals and left.strip(" \t\r"))
 
 
@@ -170,9 +170,7 @@ class _Parser:
         return self.tokens[self.next][0] in ("number", "name") or self.at("(")
 
     def sum(self):
-        self.depth += 1
-        if self.depth > DEPTH:
-            self.fail(f"brackets and signs are nested more than the {DEPTH} levels allowed")
+        self.depth += 1  # which the first sign or operand looks at
         place, terms = self.tokens[self.next][2], [self.product()]
         while self.at("+", "-"):
             _, sign, at, _ = self.take()
