@@ -1,4 +1,4 @@
-"""Guards the forecast behind ``diagnose``: its strides, the two marches and the last word, each against the plain thing."""
+"""Guards the forecast behind ``diagnose``: its strides, its two marches and its last word, each by the plain thing."""
 
 import math
 
@@ -155,7 +155,7 @@ def test_single_strides_of_the_perturbations_are_steps_of_the_linearised_scheme(
     np.testing.assert_allclose(whole(waves.halves, waves.fields, _SMOOTH), -2 * expected, atol=1e-12)
     noise = whole(waves.halves, waves.fields, _NOISE)
     level = np.abs(state).max(axis=1)
-    assert (0 < np.abs(noise).max(axis=1)).all()
+    assert (np.abs(noise).max(axis=1) > 0).all()
     assert (np.abs(noise).max(axis=1) < 5 * 0.2 * level).all()
 
 
@@ -259,7 +259,7 @@ def test_a_mode_is_held_still_where_its_steps_are_lost_in_the_last_bit(t):
 
 
 def plain(toy, n, dt, t_end, seed, blow_up_at=1e3):
-    """The march step by step: (t, which) when the linearised seed or the smooth solution is too large, and first u <= 0."""
+    """Step by step: (t, whether by the seed) when it or the smooth solution is too large, and the first u <= 0."""
     grid, negative = Grid(n), None
     even = Half(n, grid.h, 1)
     state = np.array(toy.initial(grid.x))
