@@ -285,3 +285,47 @@ def test_a_mode_is_given_with_the_largest_v_at_one_and_turning_forward(monkeypat
             np.testing.assert_allclose(jacobian(toy, n) @ z, mode.lam * z, atol=1e-7)
             assert "array" not in repr(mode)
             assert "lam=" in repr(mode)
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_the_search_near_a_shift_finds_eigenvalues_and_the_nearest_of_all(seed):
+    """Of [[0, S], [-S, -T]], T tridiagonal, against all of them by the dense route: of few unknowns and of many."""
+    random = np.random.default_rng(seed)
+    m = int(random.integers(3, 60))
+    r = m - int(random.integers(0, 2))
+    s, diagonal, off = random.uniform(0.1, 2, r), random.normal(size=m), random.normal(size=m - 1)
+    S = np.eye(r, m) * s[:, None]
+    M = np.block([[np.zeros((r, r)), S], [-S.T, -(np.diag(diagonal) + np.diag(off, 1) + np.diag(off, -1))]])
+    dense, shift = np.linalg.eigvals(M), complex(*random.normal(size=2))
+    lam, vectors = spectrum._near(s, diagonal, off, shift)
+    assert vectors.shape == (r + m, lam.size)
+    assert np.abs(dense[:, None] - lam).min(axis=0).max() < 1e-6
+    assert np.abs(lam - dense[np.argmin(np.abs(dense - shift))]).min() < 1e-6
+    for each, z in zip(lam, vectors.T, strict=True):
+        assert np.linalg.norm(M @ z - each * z) < 1e-5 * np.linalg.norm(z)
+    assert lam.size > 1
+
+
+def test_the_search_stops_where_it_has_found_all_there_is():
+    """With equal coefficients it never leaves two dimensions: lam^2 + 3 lam + 4 = 0."""
+    lam, vectors = spectrum._near(np.full(6, 2.0), np.full(6, 3.0), np.zeros(5), 0.4 + 0.3j)
+    np.testing.assert_allclose(sorted(lam, key=np.imag), sorted(np.roots([1, 3, 4]), key=np.imag), atol=1e-12)
+    np.testing.assert_allclose(2 * vectors[6:], lam * vectors[:6], atol=1e-12)
+    np.testing.assert_allclose(vectors[:6], vectors[:1] * np.ones((6, 1)), atol=1e-12)
+
+
+TOO_LARGE = "must fit into 2 GiB of memory, got n = 3579140"
+
+
+def test_what_is_too_large_is_refused_in_one_sentence():
+    for call, sentence in (
+        (lambda: jacobian(Toy(1), 5182), "n: the Jacobian must fit into 2 GiB of memory, got n = 5182"),
+        (lambda: growth(Toy(1), 3_579_140), f"n: the search for eigenvalues {TOO_LARGE}"),
+        (lambda: fastest(Toy(1), 3_579_140), f"n: the search for eigenvalues {TOO_LARGE}"),
+        (lambda: growth(Toy(1), 8, -0.5), "dt must be a finite number >= 0, got -0.5"),
+        (lambda: fastest(Toy(1), 8, -0.5), "dt must be a finite number >= 0, got -0.5"),
+        *((lambda f=f: f(3, 8), "toy must be a Toy, got 3") for f in (growth, fastest, depth, jacobian)),
+    ):
+        with pytest.raises((TypeError, ValueError)) as caught:
+            call()
+        assert str(caught.value) == sentence
