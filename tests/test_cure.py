@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pytest
 
+from primer import checks
 from primer.study.cure import cut_off, fourth_derivative, march_back, recover
 
 K = np.arange(2, 30)
@@ -131,7 +132,13 @@ def test_bad_input_gets_the_whole_sentence(call, sentence):
     assert str(caught.value) == sentence
 
 
-def test_what_is_just_allowed():
+def test_what_is_just_allowed(monkeypatch):
+    monkeypatch.setattr(checks, "MAX_BYTES", 64 * 8 * 3 * 2)  # answers on 8 points for 3 levels of noise and 2 cut-offs
+    recover(cut_off, [1.0, 2.0], [0.0, 0.1, 0.2], n=8)
+    monkeypatch.setattr(checks, "MAX_BYTES", 64 * 8 * 3 * 2 - 1)
+    with pytest.raises(ValueError, match="n, noise and parameters must fit into 0 GiB of memory, got n = 8"):
+        recover(cut_off, [1.0, 2.0], [0.0, 0.1, 0.2], n=8)
+    monkeypatch.undo()
     np.testing.assert_allclose(march_back([1.0, 3.0], cut_off(0.0, 0)), [2, 2])
     assert fourth_derivative(0, 1e-9)(np.arange(3.0)).tolist() == [1, 1, 1]
     assert recover(cut_off, [0.0], [0.0], n=4).error.shape == (1, 1)

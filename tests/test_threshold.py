@@ -8,7 +8,7 @@ from typing import ClassVar
 import numpy as np
 import pytest
 
-from primer import Toy, ftcs, grid_threshold
+from primer import Toy, checks, ftcs, grid_threshold
 from primer.schemes.discrete import discrete_steady
 from primer.schemes.grid import Grid
 from primer.study import spectrum, threshold
@@ -314,14 +314,22 @@ def test_the_search_stops_where_it_has_found_all_there_is():
     np.testing.assert_allclose(vectors[:6], vectors[:1] * np.ones((6, 1)), atol=1e-12)
 
 
-TOO_LARGE = "must fit into 2 GiB of memory, got n = 3579140"
+def test_what_does_not_fit_into_memory_is_refused_by_its_size(monkeypatch):
+    """80 n^2 bytes for a Jacobian, 600 n for a search: with the limit at 40 points, and at one byte less."""
+    for call, size, what in (
+        (jacobian, 80 * 40**2, "n: the Jacobian"),
+        (growth, 600 * 40, "n: the search for eigenvalues"),
+        (fastest, 600 * 40, "n: the search for eigenvalues"),
+    ):
+        monkeypatch.setattr(checks, "MAX_BYTES", size)
+        call(Toy(0.5), 40)
+        monkeypatch.setattr(checks, "MAX_BYTES", size - 1)
+        with pytest.raises(ValueError, match=f"^{what} must fit into 0 GiB of memory, got n = 40$"):
+            call(Toy(0.5), 40)
 
 
-def test_what_is_too_large_is_refused_in_one_sentence():
+def test_bad_input_of_the_spectrum_gets_one_sentence():
     for call, sentence in (
-        (lambda: jacobian(Toy(1), 5182), "n: the Jacobian must fit into 2 GiB of memory, got n = 5182"),
-        (lambda: growth(Toy(1), 3_579_140), f"n: the search for eigenvalues {TOO_LARGE}"),
-        (lambda: fastest(Toy(1), 3_579_140), f"n: the search for eigenvalues {TOO_LARGE}"),
         (lambda: growth(Toy(1), 8, -0.5), "dt must be a finite number >= 0, got -0.5"),
         (lambda: fastest(Toy(1), 8, -0.5), "dt must be a finite number >= 0, got -0.5"),
         *((lambda f=f: f(3, 8), "toy must be a Toy, got 3") for f in (growth, fastest, depth, jacobian)),

@@ -242,6 +242,10 @@ def test_a_short_march_is_timed_whole(monkeypatch):
     assert set(spans) == {0.001}
     assert (point.method, point.n, point.dt, point.seconds) == ("m", 50, 0.1, pytest.approx(0.001))
     spans.clear()
+    (point,) = cost.cost_against_n(Toy(2.0), 0.03, (4,), methods, seconds=10)  # all of it, however short, and no more
+    assert spans == 3 * [0.03]  # once for the compiler, and twice, to make a twentieth of a second
+    assert point.seconds == pytest.approx(0.03)
+    spans.clear()
     (point,) = cost.cost_against_n(Toy(2.0), 3.0, (50,), methods, seconds=0.02)
     assert sorted(set(spans)) == [0.002, 0.008, 0.032]  # 5/n^2, then four times as far until half of that is reached
     assert point.seconds == pytest.approx(3.0)
