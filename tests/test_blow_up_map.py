@@ -268,6 +268,8 @@ def test_what_is_too_large_is_refused_before_anything_is_marched(monkeypatch):
             blow_up_map(np.arange(members) / 10, [n], t_end=0.0, progress=False)
     with pytest.raises(ZeroDivisionError):
         blow_up_map(np.arange(5) / 10, [10**6], t_end=0.0, progress=False)
+    with pytest.raises(ZeroDivisionError):  # of a long run the end is all that is kept
+        blow_up_map(np.arange(20_000) / 1e5, [8], t_end=1000.0, progress=False)
     with pytest.raises(ValueError, match=r"^t_end must be a finite number >= 0, got -0\.5$"):
         blow_up_map([0.5], [8], t_end=-0.5)
     with pytest.raises(ValueError, match=r"^dt must be a finite number > 0, got -0\.5$"):

@@ -81,6 +81,7 @@ def test_left_to_itself_a_run_ends_when_the_grid_has_surely_taken_over(sawtooth,
         assert run.dt == pytest.approx(courant * Grid(n).h ** 2)
         assert run.blow_up_at == 100
         assert round(run.t_stop / run.dt) == round(steps) or run.stop is Stop.BLEW_UP
+        assert run.stop is Stop.REACHED_END or tolerance == 1e-2  # where Dist ends at about 1 it is not stopped before
         assert run.t.size == round(run.t_stop / run.dt) + 1  # each step is kept
         factor = amplification(BackwardHeat().symbol(1.0, Grid(n).multiplier), run.dt)[0].real
         np.testing.assert_allclose(departure, np.abs(run.dist - factor ** np.arange(run.t.size)), atol=1e-14)
@@ -100,3 +101,5 @@ def test_what_has_not_taken_over_by_the_end_never_does():
     assert run.t_stop == pytest.approx(0.5, abs=run.dt)
     assert list(run.snapshots) == [0.25]
     assert heat_onset([8], courant=1e6, t_end=0.0).t.tolist() == [math.inf]
+    with pytest.raises(ValueError, match=r"^courant must be a finite number >= 1e-06 and <= 1e[+]06, got 1000000.5$"):
+        heat_onset([8], courant=1e6 + 0.5, t_end=0.0)

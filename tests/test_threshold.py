@@ -256,7 +256,7 @@ def test_rate_is_what_steps_make_of_an_eigenvalue():
     np.testing.assert_allclose(rate(np.array([3j, -30.0]), 0.1), [5 * math.log(1.09), 10 * math.log(2)])
 
 
-@pytest.mark.parametrize("n", [4, 5, 6, 7, 30, 41])
+@pytest.mark.parametrize("n", [4, 5, 6, 7, 30, 41, 150])
 @pytest.mark.parametrize("dt", [0.0, 0.05, 0.3])
 def test_without_a_second_derivative_each_wave_is_by_itself(n, dt):
     """lam^2 + lam + s^2 = 0, but for s = 0: the constant, and the sawtooth of an even grid."""
@@ -268,6 +268,13 @@ def test_without_a_second_derivative_each_wave_is_by_itself(n, dt):
     assert rate(mode.lam, dt) == pytest.approx(rate(lam, dt).max(), abs=1e-12)
     z, J = np.concatenate([mode.u, mode.v]), jacobian(toy, n)
     np.testing.assert_allclose(J @ z, mode.lam * z, atol=1e-10 / h)
+
+
+@pytest.mark.parametrize("eps", [1.0, 1e-6])
+def test_with_any_second_derivative_they_are_not(eps):
+    toy = Toy(0.3, eps)
+    assert growth(toy, 21) == pytest.approx(dense_rates(toy, 21).real.max(), abs=1e-9)
+    assert growth(toy, 21) != growth(Toy(0.3, 0.0), 21)
 
 
 def test_a_mode_is_given_with_the_largest_v_at_one_and_turning_forward(monkeypatch):

@@ -50,6 +50,7 @@ def test_the_front_is_what_nothing_beats():
     assert [(p.seconds, p.error) for p in points] == data
     study = WorkPrecision(Toy(1.5), 1.0, points)
     assert study.quickest("m", 0.6).seconds == 2.0
+    assert study.quickest("m", 0.5).seconds == 2.0
     assert study.quickest("m", 0.1) is None
 
 
@@ -242,13 +243,54 @@ def test_a_short_march_is_timed_whole(monkeypatch):
     assert set(spans) == {0.001}
     assert (point.method, point.n, point.dt, point.seconds) == ("m", 50, 0.1, pytest.approx(0.001))
     spans.clear()
-    (point,) = cost.cost_against_n(Toy(2.0), 0.03, (4,), methods, seconds=10)  # all of it, however short, and no more
-    assert spans == 3 * [0.03]  # once for the compiler, and twice, to make a twentieth of a second
-    assert point.seconds == pytest.approx(0.03)
+    (point,) = cost.cost_against_n(Toy(2.0), 0.06, (4,), methods, seconds=10)  # all of it, however short, and no more
+    assert spans == 2 * [0.06]  # once for the compiler, and once for more than a twentieth of a second
+    assert point.seconds == pytest.approx(0.06)
     spans.clear()
     (point,) = cost.cost_against_n(Toy(2.0), 3.0, (50,), methods, seconds=0.02)
     assert sorted(set(spans)) == [0.002, 0.008, 0.032]  # 5/n^2, then four times as far until half of that is reached
     assert point.seconds == pytest.approx(3.0)
+    spans.clear()
+    cost.cost_against_n(Toy(2.0), 3.0, (50,), methods, seconds=0.012)
+    assert sorted(set(spans)) == [0.002, 0.008]
+
+
+def test_cost_is_of_all_contestants_but_py_pde(monkeypatch):
+    asked = []
+    monkeypatch.setattr(cost, "contestants", lambda *of, **options: asked.append((of, options)) or [])
+    assert cost.cost_against_n() == ()
+    assert work_precision(Toy(1.5), 0.1).points == ()
+    assert asked == [((), {"with_py_pde": False}), ((), {})]
+
+
+def test_without_a_toy_it_is_that_of_the_well_posed_example():
+    toys = []
+
+    def march(toy, n, t_end):
+        toys.append(toy)
+        return np.zeros(n), np.zeros((2, n)), 0.1
+
+    cost.cost_against_n(None, 0.1, (8,), [Method("m", march, (8,))], seconds=1e-9)
+    assert set(toys) == {Toy(1.5)}
+
+
+@pytest.mark.parametrize(
+    ("call", "sentence"),
+    [
+        (lambda: work_precision(t_end=-0.5), "t_end must be a finite number > 0, got -0.5"),
+        (lambda: work_precision(patience=-0.5), "patience must be a finite number > 0, got -0.5"),
+        (lambda: work_precision(repeats=0), "repeats must be an integer >= 1 and <= 10000, got 0"),
+        (lambda: work_precision(repeats=10_001), "repeats must be an integer >= 1 and <= 10000, got 10001"),
+        (lambda: cost.cost_against_n(t_end=-0.5), "t_end must be a finite number > 0, got -0.5"),
+        (lambda: cost.cost_against_n(seconds=-0.5), "seconds must be a finite number > 0, got -0.5"),
+        (lambda: cost.cost_against_n(3), "toy must be a Toy, got 3"),
+        (lambda: work_precision(3), "toy must be a Toy, got 3"),
+    ],
+)
+def test_bad_input_gets_the_whole_sentence(call, sentence):
+    with pytest.raises((TypeError, ValueError)) as caught:
+        call()
+    assert str(caught.value) == sentence
 
 
 DOUBLING = (25, 50, 100, 200, 400, 800, 1600, 3200)
