@@ -12,8 +12,10 @@ from primer.schemes.grid import Grid
 from primer.schemes.record import plan
 from primer.study.catalogue import HARD_CASES
 from primer.study.diagnosis import Kind
+from primer.study.forecast import Forecast
 from primer.study.leap import Half
 from primer.study.spectrum import jacobian
+from primer.study.stability import stable_dt
 
 
 def scenes(count, seed, logarithmic):
@@ -176,7 +178,110 @@ def test_where_u_is_negative_throughout_the_small_step_is_that_of_the_stiffest_m
     assert diagnosis._with_a_small_step(Toy(-2.0), 40, steps[0], 1.0, None, 1e-16) is None
 
 
-def test_a_run_without_time_is_foreseen_too():
+@pytest.fixture
+def foreseen(monkeypatch):
+    """Forecasts of ours: what follows from them, and what they are asked."""
+
+    def diagnosed(toy, *forecasts, growth=0.5, **options):
+        asked = []
+
+        def forecast(toy, n, dt, t_end, seed, epsilon, **more):
+            asked.append((n, dt, t_end, seed, epsilon, more))
+            return forecasts[len(asked) - 1]
+
+        monkeypatch.setattr(diagnosis, "forecast", forecast)
+        monkeypatch.setattr(diagnosis, "growth", lambda *_: growth)
+        return diagnose(toy, **{"n": 100, "dt": 1e-2, "t_end": 12.0, **options}), asked
+
+    return diagnosed
+
+
+def lost(t, dip=0.7, **origin):
+    return Forecast(t, origin.get("seeded", False), origin.get("smooth", False), dip)
+
+
+ILL, WELL, LIFELESS = Toy(0.5), Toy(1.5), Toy(0.5, 0.0)
+NEVER = lost(math.inf)
+NEAR_10 = "what grows from round-off is as large as u near t = 10"
+HIDES = "The equations are ill posed where u < 0, but on n = 100 points"
+
+
+@pytest.mark.parametrize(
+    ("toy", "forecasts", "growth", "kind", "reason"),
+    [
+        (ILL, [NEVER], -0.0, Kind.HIDDEN, f"{HIDES} nothing grows on the steady state."),
+        (ILL, [NEVER], 0.123456, Kind.HIDDEN,
+         f"{HIDES} perturbations grow only by e^(0.123 t), so slowly that each step of theirs is lost in the last "
+         "bit."),
+        (ILL, [lost(12.3456)], 0.5, Kind.HIDDEN,
+         f"{HIDES} perturbations grow only by e^(0.5 t): what grows from round-off is as large as u near t = 12.3, "
+         "after the end."),
+        (ILL, [lost(12.0), NEVER], 0.5, Kind.SCHEME,
+         "The step dt = 0.01 is too large for n = 100, and what grows from round-off is as large as u near t = 12; "
+         "a smaller one lives to the end."),
+        (ILL, [lost(10.0), lost(15.0)], 0.5, Kind.ILL_POSED,
+         f"Where u < 0 the equations are ill posed, n = 100 points see it, and {NEAR_10}; no smaller dt helps."),
+        (ILL, [lost(10.0), lost(15.01)], 0.5, Kind.SCHEME,
+         f"The step dt = 0.01 is too large for n = 100, and {NEAR_10}; a smaller one lives to the end."),
+        (WELL, [NEVER], 0.5, Kind.TRANSIENT, "The steady state is well posed, but u dips below zero at t = 0.7; "
+         "it recovers before anything on n = 100 points has grown enough."),
+        (WELL, [lost(10.0, None), lost(11.0, 0.87654)], 0.5, Kind.TRANSIENT,
+         "The steady state is well posed, but u dips below zero at t = 0.877, n = 100 points see that it is ill posed "
+         f"there, and {NEAR_10}."),
+        (Toy(1.0), [NEVER], 0.5, Kind.TRANSIENT, "The steady state is well posed, but u dips below zero at t = 0.7; "
+         "it recovers before anything on n = 100 points has grown enough."),
+        (WELL, [lost(math.inf, None)], -0.5, Kind.CONVERGES,
+         "The equations are well posed, as u stays positive, and nothing on n = 100 points grows to matter."),
+        (LIFELESS, [NEVER], -0.5, Kind.CONVERGES, "The equations are well posed, as the equations have no second "
+         "derivative, and nothing on n = 100 points grows to matter."),
+        (WELL, [lost(10.0, None), lost(11.0, None)], 0.5, Kind.ILL_POSED,
+         f"Where u < 0 the equations are ill posed, n = 100 points see it, and {NEAR_10}; no smaller dt helps."),
+    ],
+)  # fmt: skip
+def test_the_kind_and_the_reason_follow_from_the_forecasts(foreseen, toy, forecasts, growth, kind, reason):
+    found, _ = foreseen(toy, *forecasts, growth=growth)
+    assert (found.kind, found.reason, found.growth) == (kind, reason, growth)
+    t = found.t_blow_up
+    assert t == forecasts[0].t_blow_up
+    assert found.blow_up == ((0.87 * t, 1.26 * t) if t <= 12 else None)
+
+
+@pytest.mark.parametrize(
+    ("origin", "source"), [("seeded", "the seed"), ("smooth", "the smooth solution itself"), ("", "round-off")]
+)
+def test_the_reason_names_what_it_grows_from(foreseen, origin, source):
+    found, _ = foreseen(ILL, *2 * [lost(10.0, **{origin: True})])
+    assert f"what grows from {source} is as large" in found.reason
+    assert found.seeded == (origin == "seeded")
+    late, _ = foreseen(ILL, lost(20.0, seeded=True))
+    assert late.seeded is False  # there is no blow-up that grows from it
+
+
+@pytest.mark.parametrize(("t_end", "until"), [(12.0, 15.0), (40.0, 40.0)])
+def test_a_smaller_step_is_given_half_as_long_again(foreseen, t_end, until):
+    """And marched without the last bit; where the step is small already the one forecast says all."""
+    small = 0.05 * min((math.pi / 100) ** 2, stable_dt(WELL, 100, 2.7))
+    _, asked = foreseen(WELL, *2 * [lost(10.0)], t_end=t_end)
+    (n, dt, end, seed, epsilon, more), (_, second, later, _, _, gentle) = asked
+    assert (n, dt, end, seed, epsilon, more) == (100, 0.01, t_end, None, 2.0**-52, {})
+    assert (second, later, gentle) == (pytest.approx(small), until, {"locks": False})
+    _, asked = foreseen(WELL, lost(10.0), dt=0.9 * small)
+    assert len(asked) == 1
+
+
+def test_the_forecast_is_asked_in_the_arithmetic_of_the_run_and_in_whole_steps(foreseen):
+    for options, epsilon in (({"dtype": np.float32}, 2.0**-23), ({"digits": 400}, 1e-300)):
+        _, asked = foreseen(WELL, lost(math.inf), **options)
+        assert asked[0][4] == epsilon
+    _, asked = foreseen(WELL, lost(math.inf), dt=0.7, t_end=2.0, seed=1e-6)
+    assert asked[0][2] == 3 * 0.7
+    assert asked[0][3] == Seed(49, 1e-6)
+    foreseen(WELL, lost(math.inf), n=5000)
+    with pytest.raises(ValueError, match=r"^n must be an integer <= 5000 for a diagnosis, got 5001$"):
+        foreseen(WELL, lost(math.inf), n=5001)
+
+
+def test_a_run_without_time_isforeseen_too():
     assert diagnose(Toy(0.5), t_end=0).blow_up is None
 
 

@@ -1,10 +1,15 @@
 """Guards error against work: counts by hand, orders of accuracy, and the turn that ill-posed equations take."""
 
+import math
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
-from primer import PastHorizon, Toy
-from primer.study.effort import effort
+import primer.study.effort as effort_module
+from primer import PastHorizon, Toy, reference
+from primer.study.contestants import Method
+from primer.study.effort import Effort, effort
 from primer.view.growth import draw_growths
 from primer.view.style import new_figure, styled
 from primer.view.work_precision import draw_effort
@@ -51,3 +56,40 @@ def test_bad_input_gets_one_sentence():
         effort(Toy(1.5), 0)
     with pytest.raises(PastHorizon, match="the horizon of"):
         effort(Toy(0.5), 50.0)
+
+
+def test_the_order_is_the_slope_of_the_errors():
+    h = 2 * math.pi / np.array([10, 30, 70])
+    assert Effort("m", 2 * math.pi / h, h, h, 7 * h**3).order == pytest.approx(3)
+
+
+def test_an_error_is_the_largest_of_u_and_v_and_a_thousand_is_a_blow_up():
+    truth, toy = reference(Toy(1.5), 1.0, 1e-10), Toy(1.5)
+
+    def march(toy, n, t_end):
+        x = np.linspace(-3, 3, n)
+        fields = np.array([f[0] for f in truth.at(x)])
+        fields[n % 2, 1] -= {8: 0.5, 9: 999.0, 10: 1000.5, 11: np.nan}[n]
+        return x, fields, 0.3
+
+    found = effort_module._march(toy, 1.0, (8, 9, 10, 11), Method("m", march, (), True, 5), truth)
+    np.testing.assert_allclose(found.error, [0.5, 999, np.inf, np.inf])
+    assert found.work.tolist() == [n * 5 * 3 for n in (8, 9, 10, 11)]
+    assert (found.method, found.n.tolist(), found.dt.tolist()) == ("m", [8, 9, 10, 11], 4 * [0.3])
+
+
+def test_the_reference_is_asked_for_the_tolerance_stated(monkeypatch):
+    asked = []
+    truth = reference(Toy(1.5), 0.5, 1e-12)
+    monkeypatch.setattr(effort_module, "reference", lambda *of: asked.append(of) or truth)
+    monkeypatch.setattr(effort_module, "_march", lambda *of: SimpleNamespace(of=of))
+    found = effort(Toy(1.5), 0.5, (8, 16))
+    assert asked == [(Toy(1.5), 0.5, 1e-12)]
+    assert [(each.of[0], each.of[1], each.of[2], each.of[3].name) for each in found] == [
+        (Toy(1.5), 0.5, (8, 16), name) for name in ("FTCS", "central 4 + RK4", "central 6 + RK8", "Fourier + RK8")
+    ]
+    for wrong in ("FTCS and more", 3, "solve_ivp RK45, central 2"):
+        with pytest.raises(ValueError, match=r"methods must be of FTCS, central 2 [+] RK4, .*, Fourier [+] RK8, got "):
+            effort(Toy(1.5), 0.5, (8,), ["FTCS", wrong])
+    with pytest.raises(TypeError, match="toy must be a Toy, got 3"):
+        effort(3)

@@ -91,6 +91,15 @@ def test_dataclasses_are_frozen():
     assert sorted(x.__name__ for x in seen - holds_arrays if not x.__dataclass_params__.eq) == inside.split()
 
 
+def test_results_of_studies_that_hold_arrays_are_compared_as_themselves():
+    """The == of arrays is no truth value, and they have no hash; everything else is equal where its parts are."""
+    by_value = {"HardCase", "Method", "Point", "WorkPrecision", "Diagnosis", "Forecast", "Nudged"}
+    for path in (PACKAGE / "study").glob("*.py"):
+        for thing in vars(import_module(f"primer.study.{path.stem}")).values():
+            if isinstance(thing, type) and is_dataclass(thing) and thing.__module__ == f"primer.study.{path.stem}":
+                assert (thing.__eq__ is not object.__eq__) == (thing.__name__ in by_value), thing
+
+
 def test_what_is_left_out_is_the_same_everywhere():
     """The paper's runs to t = 100 on 100 points with dt = 1e-3 and eps = 0.01; 5 for what is timed."""
     usual = {

@@ -5,7 +5,9 @@ import math
 import numpy as np
 import pytest
 
-from primer import Seed, Stop, Toy
+from primer import BackwardHeat, Seed, Stop, Toy, ftcs
+from primer.schemes.discrete import amplification
+from primer.schemes.grid import Grid
 from primer.study.refinement import heat_onset, refine
 
 
@@ -56,3 +58,48 @@ def test_the_onset_of_the_sawtooth_in_the_backward_heat_equation():
     unseeded = heat_onset([16, 32])
     assert np.isinf(unseeded.predicted).all()
     assert 2.5 < unseeded.t[0] / unseeded.t[1] < 5  # round-off seeds it: a quarter, but for a logarithm
+
+
+def test_each_run_is_that_of_the_scheme_and_the_last_record_is_its_end():
+    found = refine(Toy(0.5), [8, 11], dt=0.01, t_end=1.0, seed=Seed(2, 1e-3))
+    for run, n in zip(found.runs, (8, 11), strict=True):
+        np.testing.assert_array_equal(run.final, ftcs(Toy(0.5), n, 0.01, 1.0, seed=Seed(2, 1e-3)).final)
+    assert found.dist_end.tolist() == [run.dist[-1] for run in found.runs]
+    assert found.dist_end.dtype == float
+    assert refine(Toy(0.5), [8], 0.01, (2, 1e-3), t_end=1.0).dist_end[0] == found.dist_end[0]
+    np.testing.assert_allclose(found.h, [math.pi / 4, 2 * math.pi / 11])
+
+
+@pytest.mark.parametrize("sawtooth", [1e-9, 0.0])
+@pytest.mark.parametrize("tolerance", [1e-2, 1e-4])
+def test_left_to_itself_a_run_ends_when_the_grid_has_surely_taken_over(sawtooth, tolerance):
+    """At ten thousand times the tolerance, round-off being 1e-18 to be sure, or at Dist = 100 if that is before."""
+    courant = 0.05
+    found = heat_onset([16, 20], courant, tolerance, sawtooth)
+    steps = math.log(1e4 * tolerance / (sawtooth or 1e-18)) / math.log1p(4 * courant)
+    for run, n, departure, t in zip(found.refinement.runs, (16, 20), found.departure, found.t, strict=True):
+        assert run.dt == pytest.approx(courant * Grid(n).h ** 2)
+        assert run.blow_up_at == 100
+        assert round(run.t_stop / run.dt) == round(steps) or run.stop is Stop.BLEW_UP
+        assert run.stop is Stop.REACHED_END or tolerance == 1e-2  # where Dist ends at about 1 it is not stopped before
+        assert run.t.size == round(run.t_stop / run.dt) + 1  # each step is kept
+        factor = amplification(BackwardHeat().symbol(1.0, Grid(n).multiplier), run.dt)[0].real
+        np.testing.assert_allclose(departure, np.abs(run.dist - factor ** np.arange(run.t.size)), atol=1e-14)
+        first = next(i for i, each in enumerate(departure) if each > tolerance)
+        assert t == run.t[first]
+    assert found.tolerance == tolerance
+    if sawtooth:
+        assert [run.seed for run in found.refinement.runs] == [Seed(n // 2, sawtooth, phase=0.0) for n in (16, 20)]
+    else:
+        assert [run.seed for run in found.refinement.runs] == [None, None]
+
+
+def test_what_has_not_taken_over_by_the_end_never_does():
+    found = heat_onset([8], courant=0.1, t_end=0.5, snapshots=[0.25])
+    assert found.t.tolist() == [math.inf]
+    (run,) = found.refinement.runs
+    assert run.t_stop == pytest.approx(0.5, abs=run.dt)
+    assert list(run.snapshots) == [0.25]
+    assert heat_onset([8], courant=1e6, t_end=0.0).t.tolist() == [math.inf]
+    with pytest.raises(ValueError, match=r"^courant must be a finite number >= 1e-06 and <= 1e[+]06, got 1000000.5$"):
+        heat_onset([8], courant=1e6 + 0.5, t_end=0.0)

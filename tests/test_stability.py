@@ -74,3 +74,22 @@ def test_bad_input_gets_one_sentence():
         frozen_dt(0, 1, 1)
     with pytest.raises(ValueError, match="n must be an integer >= 4, got 3"):
         stable_dt(Toy(1), 3)
+
+
+def test_at_the_edge_the_sawtooth_is_neutral_and_the_other_bound_holds():
+    """g = 4 eps u/h^2 = -1 exactly: h^2/4, where the next smaller u has none."""
+    assert frozen_dt(2.0, -1.0, 1.0) == 1.0
+    assert frozen_dt(2.0, np.nextafter(-1.0, -2), 1.0) == 0.0
+    assert isinstance(frozen_dt(0.1, 1.0, 0.01), float)
+    assert frozen_dt(0.1, [1.0], 0.01).shape == (1,)
+    assert stable_dt(Toy(0.1, 0.05), 30) == frozen_dt(Grid(30).h, 0.1 - OVERSHOOT, 0.05)
+    assert stable_dt(Toy(3.0, 0.5), 60) == frozen_dt(Grid(60).h, 3 + OVERSHOOT, 0.5)
+    for call, sentence in (
+        (lambda: frozen_dt(0.1, 1.0, -0.5), "eps must be a finite number >= 0, got -0.5"),
+        (lambda: stable_dt(3, 8), "toy must be a Toy, got 3"),
+        (lambda: stable_dt(Toy(1), 8, []), "u must hold at least one number, got []"),
+        (lambda: amplification_over_modes(3, 8, 0.1, 1.0), "toy must be a Toy, got 3"),
+    ):
+        with pytest.raises((TypeError, ValueError)) as caught:
+            call()
+        assert str(caught.value) == sentence

@@ -1,5 +1,6 @@
 """Guards the grid threshold: its spectrum against the dense Jacobian, that against finite differences and runs."""
 
+import itertools
 import math
 from dataclasses import dataclass
 from typing import ClassVar
@@ -7,13 +8,13 @@ from typing import ClassVar
 import numpy as np
 import pytest
 
-from primer import Toy, ftcs, grid_threshold
+from primer import Toy, checks, ftcs, grid_threshold
 from primer.schemes.discrete import discrete_steady
 from primer.schemes.grid import Grid
-from primer.study import spectrum
-from primer.study.spectrum import Parity, depth, fastest, growth, jacobian
+from primer.study import spectrum, threshold
+from primer.study.spectrum import Parity, depth, fastest, growth, jacobian, rate
 from primer.study.stability import frozen_dt
-from primer.study.threshold import _sawtooth_ratio, unstable
+from primer.study.threshold import _first_unstable, _quarter_ratio, _sawtooth_ratio, unstable
 
 
 def dense_rates(toy, n):
@@ -210,3 +211,136 @@ def test_where_the_sawtooth_begins_to_grow(a):
     r = _sawtooth_ratio(a)
     assert r > 1
     assert 2 * (r - 1) ** 3 == pytest.approx(r / (2 * (1 - a)), rel=1e-12)
+
+
+@pytest.mark.parametrize(("eps", "frozen"), [(0.01, 100.0), (1e-3, 314.0), (0.1, 40.0)])
+def test_where_packets_near_a_quarter_of_the_grid_begin_to_grow(eps, frozen):
+    """(r - 2)/4 = sqrt(eps n/(16 pi)) with n = frozen sqrt(r)."""
+    r = _quarter_ratio(eps, frozen)
+    assert (r - 2) / 4 == pytest.approx(math.sqrt(eps * frozen * math.sqrt(r) / (16 * math.pi)), rel=1e-12)
+
+
+def test_the_search_finds_the_first_of_any_unstable_grids(monkeypatch):
+    """Whatever the threshold of each n mod 4, six points apart at most, against looking at every grid."""
+    random = np.random.default_rng(0)
+    for _ in range(400):
+        starts = np.repeat(random.integers(4, 300, size=2), 2).reshape(2, 2) + random.integers(0, 2, size=(2, 2)) * 6
+        monkeypatch.setattr(threshold, "unstable", lambda toy, n, starts=starts: n >= starts[n % 2, n // 2 % 2])
+        first = next(n for n in itertools.count(4) if threshold.unstable(None, n))
+        assert _first_unstable(Toy(0.5), random.uniform(5, 400)) == first
+
+
+def test_coarse_grids_are_looked_at_one_by_one(monkeypatch):
+    """The seeing of these needs not grow with n: one of them, and then none up to 100."""
+    for single in range(4, 33):
+        monkeypatch.setattr(threshold, "unstable", lambda toy, n, single=single: n == single or n >= 100)
+        assert _first_unstable(Toy(0.5), 70.0) == single
+
+
+def test_grids_over_a_million_points_are_not_looked_at(monkeypatch):
+    toy, tried = Toy(0.75, 1e-2), []
+    monkeypatch.setattr(threshold, "unstable", lambda toy, n: tried.append(n) or n > 999_000)
+    r = _sawtooth_ratio(0.75)  # the quarter's comes later there
+    assert _first_unstable(toy, 0.99999e6 / math.sqrt(r)) == 999_001
+    assert max(tried) < 1.03e6
+    assert r < _quarter_ratio(1e-2, 1e6)
+    with pytest.raises(ValueError, match=r"^eps") as caught:
+        _first_unstable(toy, 1.00001e6 / math.sqrt(r))
+    assert str(caught.value) == "eps (1 - a) must be more than about 2e-11, got 0.0025"
+
+
+def test_rate_is_what_steps_make_of_an_eigenvalue():
+    assert rate(2.0) == 2.0
+    assert rate(-1 + 3j) == -1
+    assert rate(2.0, 0.1) == pytest.approx(math.log(1.2) / 0.1)
+    np.testing.assert_allclose(rate(np.array([3j, -30.0]), 0.1), [5 * math.log(1.09), 10 * math.log(2)])
+
+
+@pytest.mark.parametrize("n", [4, 5, 6, 7, 30, 41, 150])
+@pytest.mark.parametrize("dt", [0.0, 0.05, 0.3])
+def test_without_a_second_derivative_each_wave_is_by_itself(n, dt):
+    """lam^2 + lam + s^2 = 0, but for s = 0: the constant, and the sawtooth of an even grid."""
+    k = np.arange(1, (n + 1) // 2)
+    s, h = np.sin(2 * np.pi * k / n) / (2 * np.pi / n), 2 * np.pi / n
+    lam = np.concatenate([np.roots([1, 1, each**2]) for each in s])
+    toy, mode = Toy(0.3, 0.0), fastest(Toy(0.3, 0.0), n, dt)
+    assert growth(toy, n, dt) == pytest.approx(rate(lam, dt).max(), abs=1e-12)
+    assert rate(mode.lam, dt) == pytest.approx(rate(lam, dt).max(), abs=1e-12)
+    z, J = np.concatenate([mode.u, mode.v]), jacobian(toy, n)
+    np.testing.assert_allclose(J @ z, mode.lam * z, atol=1e-10 / h)
+
+
+@pytest.mark.parametrize("eps", [1.0, 1e-6])
+def test_with_any_second_derivative_they_are_not(eps):
+    toy = Toy(0.3, eps)
+    assert growth(toy, 21) == pytest.approx(dense_rates(toy, 21).real.max(), abs=1e-9)
+    assert growth(toy, 21) != growth(Toy(0.3, 0.0), 21)
+
+
+def test_a_mode_is_given_with_the_largest_v_at_one_and_turning_forward(monkeypatch):
+    """Whichever of a pair of conjugates the search comes upon."""
+    eig = np.linalg.eig
+    for turned in (False, True):
+        if turned:
+            monkeypatch.setattr(np.linalg, "eig", lambda m: tuple(part.conj() for part in eig(m)))
+        for toy, n in ((Toy(0.5), 66), (Toy(-1.0, 0.1), 13), (Toy(0.5), 100), (Toy(1.5), 30), (Toy(0.9, 0.01), 21)):
+            mode = fastest(toy, n)
+            assert mode.lam.imag >= 0
+            assert mode.v[np.argmax(np.abs(mode.v))] == pytest.approx(1, abs=1e-15)
+            np.testing.assert_allclose(mode.lam * mode.u, Grid(n).derivative(mode.v, 1), atol=1e-9)
+            z = np.concatenate([mode.u, mode.v])
+            np.testing.assert_allclose(jacobian(toy, n) @ z, mode.lam * z, atol=1e-7)
+            assert "array" not in repr(mode)
+            assert "lam=" in repr(mode)
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_the_search_near_a_shift_finds_eigenvalues_and_the_nearest_of_all(seed):
+    """Of [[0, S], [-S, -T]], T tridiagonal, against all of them by the dense route: of few unknowns and of many."""
+    random = np.random.default_rng(seed)
+    m = int(random.integers(3, 60))
+    r = m - int(random.integers(0, 2))
+    s, diagonal, off = random.uniform(0.1, 2, r), random.normal(size=m), random.normal(size=m - 1)
+    S = np.eye(r, m) * s[:, None]
+    M = np.block([[np.zeros((r, r)), S], [-S.T, -(np.diag(diagonal) + np.diag(off, 1) + np.diag(off, -1))]])
+    dense, shift = np.linalg.eigvals(M), complex(*random.normal(size=2))
+    lam, vectors = spectrum._near(s, diagonal, off, shift)
+    assert vectors.shape == (r + m, lam.size)
+    assert np.abs(dense[:, None] - lam).min(axis=0).max() < 1e-6
+    assert np.abs(lam - dense[np.argmin(np.abs(dense - shift))]).min() < 1e-6
+    for each, z in zip(lam, vectors.T, strict=True):
+        assert np.linalg.norm(M @ z - each * z) < 1e-5 * np.linalg.norm(z)
+    assert lam.size > 1
+
+
+def test_the_search_stops_where_it_has_found_all_there_is():
+    """With equal coefficients it never leaves two dimensions: lam^2 + 3 lam + 4 = 0."""
+    lam, vectors = spectrum._near(np.full(6, 2.0), np.full(6, 3.0), np.zeros(5), 0.4 + 0.3j)
+    np.testing.assert_allclose(sorted(lam, key=np.imag), sorted(np.roots([1, 3, 4]), key=np.imag), atol=1e-12)
+    np.testing.assert_allclose(2 * vectors[6:], lam * vectors[:6], atol=1e-12)
+    np.testing.assert_allclose(vectors[:6], vectors[:1] * np.ones((6, 1)), atol=1e-12)
+
+
+def test_what_does_not_fit_into_memory_is_refused_by_its_size(monkeypatch):
+    """80 n^2 bytes for a Jacobian, 600 n for a search: with the limit at 40 points, and at one byte less."""
+    for call, size, what in (
+        (jacobian, 80 * 40**2, "n: the Jacobian"),
+        (growth, 600 * 40, "n: the search for eigenvalues"),
+        (fastest, 600 * 40, "n: the search for eigenvalues"),
+    ):
+        monkeypatch.setattr(checks, "MAX_BYTES", size)
+        call(Toy(0.5), 40)
+        monkeypatch.setattr(checks, "MAX_BYTES", size - 1)
+        with pytest.raises(ValueError, match=f"^{what} must fit into 0 GiB of memory, got n = 40$"):
+            call(Toy(0.5), 40)
+
+
+def test_bad_input_of_the_spectrum_gets_one_sentence():
+    for call, sentence in (
+        (lambda: growth(Toy(1), 8, -0.5), "dt must be a finite number >= 0, got -0.5"),
+        (lambda: fastest(Toy(1), 8, -0.5), "dt must be a finite number >= 0, got -0.5"),
+        *((lambda f=f: f(3, 8), "toy must be a Toy, got 3") for f in (growth, fastest, depth, jacobian)),
+    ):
+        with pytest.raises((TypeError, ValueError)) as caught:
+            call()
+        assert str(caught.value) == sentence

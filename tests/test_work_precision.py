@@ -7,8 +7,11 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from scipy import integrate
 
-from primer import Toy
+from primer import CENTRAL, CENTRAL_4, CENTRAL_6, FOURIER, RK4, RK8, Toy, ftcs, march_lines, reference
+from primer.schemes.grid import Grid
+from primer.schemes.lines import stable_step
 from primer.study import contestants as contestants_module
 from primer.study import cost, measured
 from primer.study.contestants import Method, contestants
@@ -47,6 +50,7 @@ def test_the_front_is_what_nothing_beats():
     assert [(p.seconds, p.error) for p in points] == data
     study = WorkPrecision(Toy(1.5), 1.0, points)
     assert study.quickest("m", 0.6).seconds == 2.0
+    assert study.quickest("m", 0.5).seconds == 2.0
     assert study.quickest("m", 0.1) is None
 
 
@@ -147,3 +151,258 @@ def test_measurements_survive_the_file(study, tmp_path):
         assert p.error == pytest.approx(q.error, rel=1e-3)
     assert math.isnan(cost_again[0].error)
     assert cost_again[0].seconds == 1.0
+
+
+def timed(monkeypatch, seconds):
+    """A run that takes these times of a clock of ours, one after the other, and says which it is."""
+    now, left = [100.0], list(enumerate(seconds))
+
+    def run():
+        k, spent = left.pop(0)
+        now[0] += spent
+        return k
+
+    monkeypatch.setattr(cost.time, "perf_counter", lambda: now[0])
+    return run
+
+
+@pytest.mark.parametrize(
+    ("seconds", "patience", "repeats", "median", "last"),
+    [
+        ([9.0, 3.0, 1.0, 8.0], 10.0, 3, 3.0, 3),  # the first does not count
+        ([1.0, 1.0], 1.0, 1, 1.0, 1),
+        ([0.5, *4 * [2.0**-6]], 1.0, 1, 2.0**-6, 4),  # short ones go on for a twentieth of a second
+        ([5.0, 1.0, 0.5], 1.0, 2, 0.75, 2),  # it may have had to compile
+        ([5.25], 1.0, 3, 5.25, 0),  # but not so long
+        ([0.5, 0.5, 1.25], 1.0, 5, 1.25, 2),  # one that tries the patience is the last
+    ],
+)
+def test_the_clock_takes_the_median_of_what_counts(monkeypatch, seconds, patience, repeats, median, last):
+    assert cost.clock(timed(monkeypatch, seconds), patience, repeats) == (median, last)
+
+
+def test_an_error_is_the_largest_of_u_and_v_against_a_reference_far_better(monkeypatch):
+    asked = []
+
+    def watched(*arguments, **options):
+        asked.append((arguments, options))
+        return reference(*arguments, **options)
+
+    def march(toy, knob, t_end):
+        x = Grid(knob).x
+        fields = np.array([f[0] for f in reference(toy, t_end, 1e-12).at(x)])
+        fields[knob % 2, 3] += 0.25 * (-1) ** knob
+        return x, fields, 1 / knob
+
+    monkeypatch.setattr(cost, "reference", watched)
+    found = work_precision(None, 0.5, [Method("off", march, (8, 11))], repeats=1)
+    assert [(p.n, p.dt, p.error) for p in found.points] == [
+        (8, 1 / 8, pytest.approx(0.25)),
+        (11, 1 / 11, pytest.approx(0.25)),
+    ]
+    assert (found.toy, found.t_end) == (Toy(1.5), 0.5)
+    assert work_precision(Toy(-3.0), 0.01, [Method("off", march, (8,))], repeats=1).toy == Toy(-3.0)
+    assert asked == [((Toy(1.5), 0.5), {"tol": 1e-13 * 3.5}), ((Toy(-3.0), 0.01), {"tol": 1e-13 * 5})]
+
+
+def test_lost_runs_have_an_infinite_error():
+    def lost(toy, knob, t_end):
+        return Grid(knob).x, np.full((2, knob), np.nan if knob == 8 else np.inf), 0.1
+
+    found = work_precision(Toy(1.5), 0.1, [Method("bad", lost, (8, 16))], repeats=1)
+    assert [p.error for p in found.points] == [math.inf, math.inf]
+    assert not any(p.on_front for p in found.points)
+    assert found.methods == ("bad",)
+    assert found.of("bad") == found.points
+    assert found.of("good") == ()
+
+
+def test_patience_is_by_method(monkeypatch):
+    """One that took just so long is given its next knob; one that took longer is not, and the next method starts."""
+    monkeypatch.setattr(
+        cost, "clock", lambda run, patience, repeats: (run.args[1] / 8, (np.zeros(4), np.zeros((2, 4)), 1))
+    )
+    methods = [Method(name, None, (8, 16, 24, 32)) for name in "ab"]
+    monkeypatch.setattr(cost, "partial", lambda march, *args: SimpleNamespace(args=args))
+    found = work_precision(Toy(1.5), 0.1, methods, patience=2.0)
+    assert [(p.method, p.seconds) for p in found.points] == [(m, t) for m in "ab" for t in (1, 2, 3)]
+
+
+def test_a_short_march_is_timed_whole(monkeypatch):
+    now, spans = [0.0], []
+    monkeypatch.setattr(cost.time, "perf_counter", lambda: now[0])
+
+    def march(toy, n, t_end):
+        assert toy == Toy(2.0)
+        now[0] += t_end
+        spans.append(t_end)
+        return np.zeros(n), np.zeros((2, n)), 0.1
+
+    methods = [Method("m", march, (8,)), Method("tol", march, (8,), by_points=False)]
+    (point,) = cost.cost_against_n(Toy(2.0), 0.001, (50,), methods, seconds=1e-6)
+    assert set(spans) == {0.001}
+    assert (point.method, point.n, point.dt, point.seconds) == ("m", 50, 0.1, pytest.approx(0.001))
+    spans.clear()
+    (point,) = cost.cost_against_n(Toy(2.0), 0.06, (4,), methods, seconds=10)  # all of it, however short, and no more
+    assert spans == 2 * [0.06]  # once for the compiler, and once for more than a twentieth of a second
+    assert point.seconds == pytest.approx(0.06)
+    spans.clear()
+    (point,) = cost.cost_against_n(Toy(2.0), 3.0, (50,), methods, seconds=0.02)
+    assert sorted(set(spans)) == [0.002, 0.008, 0.032]  # 5/n^2, then four times as far until half of that is reached
+    assert point.seconds == pytest.approx(3.0)
+    spans.clear()
+    cost.cost_against_n(Toy(2.0), 3.0, (50,), methods, seconds=0.012)
+    assert sorted(set(spans)) == [0.002, 0.008]
+
+
+def test_cost_is_of_all_contestants_but_py_pde(monkeypatch):
+    asked = []
+    monkeypatch.setattr(cost, "contestants", lambda *of, **options: asked.append((of, options)) or [])
+    assert cost.cost_against_n() == ()
+    assert work_precision(Toy(1.5), 0.1).points == ()
+    assert asked == [((), {"with_py_pde": False}), ((), {})]
+
+
+def test_without_a_toy_it_is_that_of_the_well_posed_example():
+    toys = []
+
+    def march(toy, n, t_end):
+        toys.append(toy)
+        return np.zeros(n), np.zeros((2, n)), 0.1
+
+    cost.cost_against_n(None, 0.1, (8,), [Method("m", march, (8,))], seconds=1e-9)
+    assert set(toys) == {Toy(1.5)}
+
+
+@pytest.mark.parametrize(
+    ("call", "sentence"),
+    [
+        (lambda: work_precision(t_end=-0.5), "t_end must be a finite number > 0, got -0.5"),
+        (lambda: work_precision(patience=-0.5), "patience must be a finite number > 0, got -0.5"),
+        (lambda: work_precision(repeats=0), "repeats must be an integer >= 1 and <= 10000, got 0"),
+        (lambda: work_precision(repeats=10_001), "repeats must be an integer >= 1 and <= 10000, got 10001"),
+        (lambda: cost.cost_against_n(t_end=-0.5), "t_end must be a finite number > 0, got -0.5"),
+        (lambda: cost.cost_against_n(seconds=-0.5), "seconds must be a finite number > 0, got -0.5"),
+        (lambda: cost.cost_against_n(3), "toy must be a Toy, got 3"),
+        (lambda: work_precision(3), "toy must be a Toy, got 3"),
+    ],
+)
+def test_bad_input_gets_the_whole_sentence(call, sentence):
+    with pytest.raises((TypeError, ValueError)) as caught:
+        call()
+    assert str(caught.value) == sentence
+
+
+DOUBLING = (25, 50, 100, 200, 400, 800, 1600, 3200)
+POINTS, FEW = dict.fromkeys(("central 2", "central 4", "central 6"), DOUBLING), (8, 10, 12, 14, 16, 20)
+TOLERANCES = tuple(10.0**-k for k in range(4, 13))
+
+
+def test_the_contestants_and_their_knobs(monkeypatch):
+    expected = [("FTCS", DOUBLING, True, 1)]
+    for time, stages in (("RK4", 4), ("RK8", 12)):
+        expected += [(f"{space} + {time}", knobs, True, stages) for space, knobs in (POINTS | {"Fourier": FEW}).items()]
+    expected += [
+        ("reference", TOLERANCES[2:], False, 0),
+        ("solve_ivp RK45, central 2", DOUBLING, True, 0),
+        ("solve_ivp LSODA, Fourier", TOLERANCES, False, 0),
+        ("solve_ivp DOP853, Fourier", TOLERANCES, False, 0),
+    ]
+    last = [("py-pde", (100,), True, 0)]
+
+    def described(with_py_pde):
+        return [(m.name, m.knobs, m.by_points, m.stages) for m in contestants(with_py_pde)]
+
+    for here in (None, "a spec"):
+        monkeypatch.setattr(contestants_module, "find_spec", lambda name, here=here: here if name == "pde" else 1 / 0)
+        assert described(False) == expected
+        assert described(None) == expected + (last if here else [])
+    assert described(True) == expected + last
+    monkeypatch.setattr(contestants_module, "find_spec", lambda name: None)
+    with pytest.raises(ModuleNotFoundError) as caught:
+        contestants(True)
+    assert str(caught.value) == 'py-pde is not here: python -m pip install "illposed-primer[bench]" brings it'
+
+
+SPACES = {"central 2": CENTRAL, "central 4": CENTRAL_4, "central 6": CENTRAL_6, "Fourier": FOURIER}
+
+
+def test_each_pair_takes_the_step_whose_error_is_that_of_its_space():
+    """c h^order or 10^(-1 - 0.8 n) = 6e-3 dt^4 or 5e-8 dt^8, but for 0.6, round-off and the limit of stability."""
+    toy, methods, limits = Toy(1.5), {m.name: m for m in contestants(False)}, set()
+    for name, space in SPACES.items():
+        for time in (RK4, RK8):
+            for n in (8, 12, 20) if name == "Fourier" else (8, 40, 100):
+                h = 2 * math.pi / n
+                order, c = {"central 2": (2, 0.25), "central 4": (4, 0.05), "central 6": (6, 0.012)}.get(name, (0, 0))
+                error = c * h**order if order else max(10 ** (-1 - 0.8 * n), 1e-14)
+                dt = (error / 6e-3) ** 0.25 if time is RK4 else (error / 5e-8) ** 0.125
+                steps = {"accurate": dt, "0.6": 0.6, "stable": stable_step(toy, n, space, time)}
+                limits.add(min(steps, key=steps.get))
+                x, fields, step = methods[f"{name} + {time.name}"].march(toy, n, 2.0)
+                run = march_lines(toy, n, min(steps.values()), 2.0, space, time)
+                assert step == pytest.approx(run.dt, rel=1e-12)
+                assert 2.0 / step == pytest.approx(math.ceil(2.0 / min(steps.values())), rel=1e-9)
+                np.testing.assert_array_equal(x, run.x)
+                np.testing.assert_allclose(fields, run.final, atol=1e-12)
+    assert limits == {"accurate", "0.6", "stable"}
+
+
+def test_the_paper_s_scheme_takes_a_quarter_of_h_squared_and_ends_at_the_end():
+    for n, t_end, steps in ((25, 1.0, 64), (8, 1e-3, 1), (16, (math.pi / 8) ** 2 / 4 * 3, 3)):
+        x, fields, dt = contestants_module._ftcs(Toy(1.5), n, t_end)
+        assert steps == max(1, math.ceil(t_end / ((2 * math.pi / n) ** 2 / 4)))
+        assert dt == t_end / steps
+        np.testing.assert_array_equal(fields, ftcs(Toy(1.5), n, t_end / steps, t_end).final)
+        np.testing.assert_array_equal(x, Grid(n).x)
+
+
+@pytest.mark.parametrize("name", ["reference", "solve_ivp LSODA, Fourier", "solve_ivp DOP853, Fourier"])
+def test_methods_of_their_own_steps_are_as_good_as_their_tolerance(name):
+    (method,) = (m for m in contestants(False) if m.name == name)
+    truth = reference(Toy(1.5), 1.0, 1e-12)
+    for tol, n in ((1e-6, 12), (2e-7, 12), (1e-7, 16), (1e-8, 16), (2e-11, 16), (1e-11, 24)):
+        x, fields, dt = method.march(Toy(1.5), tol, 1.0)
+        assert math.isnan(dt)
+        assert np.shape(fields) == (2, len(x))
+        assert np.abs(np.array(fields) - [f[0] for f in truth.at(x)]).max() < 30 * tol
+        if name != "reference":
+            assert len(x) == n
+
+
+def test_differences_by_scipy_are_given_the_tolerance_that_matches(monkeypatch):
+    """A hundredth of h^2, absolute and relative; and the answer is that of the differences in exact time."""
+    asked = {}
+    solve = integrate.solve_ivp
+
+    def watched(f, span, y, method, times, rtol, atol):
+        asked.update(span=span, method=method, times=times, rtol=rtol, atol=atol)
+        return solve(f, span, y, method, times, rtol=rtol, atol=atol)
+
+    monkeypatch.setattr(integrate, "solve_ivp", watched)
+    x, fields, dt = contestants_module._solve_ivp_by_points(Toy(1.5), 20, 1.0)
+    tol = (2 * math.pi / 20) ** 2 / 100
+    assert asked == {"span": (0, 1.0), "method": "RK45", "times": (1.0,), "rtol": tol, "atol": tol}
+    assert math.isnan(dt)
+    np.testing.assert_array_equal(x, Grid(20).x)
+    np.testing.assert_allclose(fields, march_lines(Toy(1.5), 20, 1e-2, 1.0, CENTRAL, RK4).final, atol=5 * tol)
+
+
+def test_a_file_of_measurements_has_four_digits_and_null_for_what_is_no_number(tmp_path):
+    points = (Point("FTCS", 25, 0.123456, math.inf, 2.0, True), Point("solve_ivp", 8, math.nan, 1.23456e-7, 0.5))
+    measured.write(tmp_path / "m.json", WorkPrecision(Toy(1.5, 0.02), 4.0, points), points[:1])
+    assert (tmp_path / "m.json").read_text(encoding="utf-8") == (
+        '{\n "a": 1.5,\n "eps": 0.02,\n "t_end": 4.0,\n "points": [\n'
+        '  {"method": "FTCS", "n": 25, "dt": 0.1235, "error": null, "seconds": 2.0},\n'
+        '  {"method": "solve_ivp", "n": 8, "dt": null, "error": 1.235e-07, "seconds": 0.5}\n ],\n "cost": [\n'
+        '  {"method": "FTCS", "n": 25, "dt": 0.1235, "error": null, "seconds": 2.0}\n ]\n}\n'
+    )
+    study, kept = measured.read(tmp_path / "m.json")
+    assert (study.toy, study.t_end) == (Toy(1.5, 0.02), 4.0)
+    assert [p.on_front for p in study.points] == [False, True]
+    assert math.isnan(kept[0].error)
+    (tmp_path / "bad.json").write_text("{}", encoding="utf-8")
+    with pytest.raises(
+        ValueError, match=r"^path must be a file of measurements as write\(\) keeps them, got '.*bad.json'$"
+    ):
+        measured.read(tmp_path / "bad.json")

@@ -149,18 +149,14 @@ class _Waves:
             field += solved(stride * half.rate(self.eps, smooth.u, smooth.v_xx, field))
         self.round_off(level, m, self.epsilon)
         sizes = np.maximum(*(np.abs(field).max(axis=(1, 2)) for field in self.fields))
-        large = sizes > 1e6
-        if large.any():
-            factors = np.where(large, sizes, 1.0)
-            self.logs += np.log(factors)
-            for field in self.fields:
-                field /= factors[:, None, None]
+        factors = np.where(sizes > 1e6, sizes, 1.0)
+        self.logs += np.log(factors)
+        for field in self.fields:
+            field /= factors[:, None, None]
 
     def _amplitudes(self):
         """(3, 2) logarithms of max |u| and max |v|."""
-        sizes = np.maximum(
-            *(np.abs(half.full(f)).max(axis=-1) for half, f in zip(self.halves, self.fields, strict=True))
-        )
+        sizes = np.maximum(*(np.abs(field).max(axis=-1) for field in self.fields))
         return np.log(np.maximum(sizes, 1e-300)) + self.logs[:, None]
 
     def log_sizes(self):
@@ -195,8 +191,6 @@ def _stride(eps, u, h, dt):
         stride = min(stride, _GROWTH / sawtooth)
     if dt > frozen_dt(h, u.min(), eps):  # waves grow, by dt or by u
         stride = min(stride, _WAVE * h)
-    if (
-        dt * (1 + 4 * eps * max(u.max(), 0.0) / h**2) > 1.9
-    ):  # the stiffest modes overshoot: only the scheme does as it does
+    if dt * (1 + 4 * eps * u.max() / h**2) > 1.9:  # the stiffest modes overshoot: only the scheme does as it does
         stride = dt
     return max(1, int(stride / dt))

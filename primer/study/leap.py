@@ -60,7 +60,7 @@ class Half:
         ab[6, 1::2] += tau + 2 * r2
         ab[7, ::2] = -tau * eps * v_xx
         ab[3, 3::2] = ab[5, 2::2] = -r1  # of u_t: v ahead; of v_t: u ahead
-        ab[7, 1:-1:2] = ab[9, :-2:2] = r1  # behind
+        ab[7, 1::2] = ab[9, ::2] = r1  # behind; nobody reads what lies outside the matrix
         ab[4, 3::2], ab[8, 1:-1:2] = -r2[:-1], -r2[1:]
         ab[3, 3], ab[5, 2], ab[4, 3] = -r1 * (1 - q), -r1 * (1 - p), -r2[0] * (1 + q)
         if self.n % 2:

@@ -124,7 +124,7 @@ def mirror_symmetric(toy, n, dt, t_end, blow_up_at=1e3):
     u, v = np.full(n, toy.a), -sin_x / 2
     steady = toy.a + np.cos(h * half)
     r1, r2 = 1 / (2 * h), 1 / (h * h)
-    for step in range(steps):
+    for step in range(steps + 1):
         if not np.max((u - steady) ** 2 + v**2) <= blow_up_at**2:
             return step * dt
         (u_right, v_right), (u_left, v_left) = (np.roll((u, v), shift, axis=1) for shift in (-1, 1))

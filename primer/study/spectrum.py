@@ -114,9 +114,9 @@ def fastest(toy, n, dt=0.0):
             v[k[-1]] /= math.sqrt(2)  # the sawtooth's norm on the grid is sqrt(2) times that of the other cosines
         # The mean of v drives nothing and is driven by cos x times the first harmonic.
         v[0] = toy.eps * grid.h / math.sin(grid.h) / 2 * half[0] ** 2 * y[0] / (lam + 1)
-        v = (np.fft.fft(v) + n * np.fft.ifft(v)) / 2
+        v = np.fft.fft(v) + n * np.fft.ifft(v)
     else:
-        v = (n * np.fft.ifft(v) - np.fft.fft(v)) / 2j
+        v = n * np.fft.ifft(v) - np.fft.fft(v)
     v = v / v[np.argmax(np.abs(v))]
     return Mode(n, complex(lam), parity, grid.x, grid.derivative(v, 1) / lam, v)
 

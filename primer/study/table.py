@@ -41,7 +41,7 @@ class Table:
                 self.rows[tuple(map(float, key))] = tuple(map(float, value))
             sound = all(len(row) == len(self._names) for row in rows)
         except (OSError, ValueError, csv.Error):  # not text, not a table, not numbers
-            head, names, sound = "", [], False
+            sound = False
         if not sound or head != self._head or names != self._names:
             raise ValueError(
                 f"table must be new or one of the same sweep ({self._head[2:]}), undamaged, got {str(path)!r}"

@@ -61,7 +61,7 @@ def grid_threshold(a: float, eps: float = 0.01) -> GridThreshold:
     # The product of two tiny numbers may be 0; no grid is as fine as the 1e-200 then stands for.
     well = max(math.sqrt(toy.eps * (1 - toy.a)), 1e-200) if toy.a < 1 and toy.eps > 0 else 0.0
     frozen = math.pi / well if well else math.inf
-    n = _first_unstable(toy, frozen) if toy.eps > 0 else None
+    n = _first_unstable(toy, frozen)
     return GridThreshold(toy.a, toy.eps, frozen, n, None if n is None else fastest(toy, n))
 
 
