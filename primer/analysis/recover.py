@@ -39,12 +39,14 @@ def _without_noise(table):
 
 
 def _fits(pencil, tables, xi):
-    """Whether the coefficients give the matrices at xi, up to rounding and to what their own noise is worth there."""
+    """Whether the coefficients give the matrices at xi, up to rounding and to what the noise in them is worth there."""
     x, y = xi if pencil.dim == 2 else (xi, np.ones_like(xi))
     for values, table in zip(pencil.matrices(xi), tables, strict=True):
         powers = x ** np.arange(len(table))[:, None], y ** np.arange(table.shape[1])[:, None]
         terms = np.einsum("an,bn,abrc->nabrc", *powers, table)
-        noise = NOISE * np.einsum("an,bn,rc->nrc", *map(np.abs, powers), np.abs(table).max(axis=(0, 1)))
+        a, b, *_ = np.nonzero(table)
+        present = [np.abs(p[: top.max(initial=0) + 1]) for p, top in zip(powers, (a, b), strict=True)]
+        noise = NOISE * np.einsum("an,bn,rc->nrc", *present, np.abs(table).max(axis=(0, 1)))
         off = np.abs(values - terms.sum(axis=(1, 2)))
         if (off > noise + 1e-9 * (np.abs(terms).sum(axis=(1, 2)) + np.abs(values))).any():
             return False
