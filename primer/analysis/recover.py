@@ -44,9 +44,8 @@ def _fits(pencil, tables, xi):
     for values, table in zip(pencil.matrices(xi), tables, strict=True):
         powers = x ** np.arange(len(table))[:, None], y ** np.arange(table.shape[1])[:, None]
         terms = np.einsum("an,bn,abrc->nabrc", *powers, table)
-        a, b, *_ = np.nonzero(table)
-        present = [np.abs(p[: top.max(initial=0) + 1]) for p, top in zip(powers, (a, b), strict=True)]
-        noise = NOISE * np.einsum("an,bn,rc->nrc", *present, np.abs(table).max(axis=(0, 1)))
+        most = NOISE * np.abs(table).max(axis=(0, 1)) * (table != 0)
+        noise = np.einsum("an,bn,abrc->nrc", *map(np.abs, powers), most)
         off = np.abs(values - terms.sum(axis=(1, 2)))
         if (off > noise + 1e-9 * (np.abs(terms).sum(axis=(1, 2)) + np.abs(values))).any():
             return False
