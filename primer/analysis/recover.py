@@ -1,5 +1,7 @@
 """From a pencil back to its coefficients, where its entries are polynomials in xi."""
 
+from itertools import product
+
 import mpmath as mp
 import numpy as np
 
@@ -7,7 +9,7 @@ from primer.analysis.symbol import Symbol
 
 HALF_DEGREES = (1, 2, 4)  # the number of nodes on each side of zero
 NOISE = 1e-12  # relative error of the values of a pencil's entries, with something to spare
-SCALES = (1.0, 1e2, 1e4, 1e6)  # wavenumbers at which the coefficients found between -1 and 1 must give the entries
+SCALES = (1.0, 1e2, 1e4, 1e6)  # sizes of xi_1 and xi_2 at which what is found between -1 and 1 must give the entries
 DIGITS = 13  # kept of a coefficient, so that equal ones come out equal and the rest may count as exact
 
 
@@ -26,7 +28,7 @@ def recovered(pencil):
             for axis in range(pencil.dim):
                 values = np.moveaxis(np.tensordot(inverse, values, axes=(1, axis)), 0, axis)
             tables.append(_without_noise(values if pencil.dim == 2 else values[:, None]))
-        if all(_fits(pencil, tables, scale * pencil.probe) for scale in SCALES):
+        if all(_fits(pencil, tables, (pencil.probe.T * scale).T) for scale in product(SCALES, repeat=pencil.dim)):
             return _symbol(tables, pencil)
     return None
 
