@@ -44,7 +44,7 @@ from primer.schemes.lines import stable_step
 from primer.study.contestants import Method
 from primer.study.cure import cut_off, fourth_derivative, march_back, recover
 from primer.study.round_off import mirror_symmetric, one_ulp, precision_ladder, seed_ladder
-from primer.study.spectrum import depth, fastest, growth, jacobian
+from primer.study.spectrum import depth, fastest, growing, growth, jacobian
 from primer.study.stability import amplification_over_modes, frozen_dt
 
 TOY, HEAT, LIFELESS, X = Toy(1.5), BackwardHeat(), Toy(1.5, 0.0), np.linspace(-1.0, 1.0, 8)
@@ -207,6 +207,7 @@ TABLE = {
     "spectrum.jacobian": (jacobian, {"toy": TOY, "n": 8}, {"toy": TOYS, "n": (*GRID, 10**6)}),
     "spectrum.depth": (depth, {"toy": TOY, "n": 8}, {"toy": TOYS, "n": GRID}),
     "spectrum.fastest": (fastest, {"toy": TOY, "n": 8, "dt": 0.0}, {"toy": TOYS, "n": GRID, "dt": LEAST_0}),
+    "spectrum.growing": (growing, {"toy": TOY, "n": 8, "dt": 0.0}, {"toy": TOYS, "n": GRID, "dt": LEAST_0}),
     "spectrum.growth": (growth, {"toy": TOY, "n": 8, "dt": 0.0}, {"toy": TOYS, "n": GRID, "dt": LEAST_0}),
     "precision_ladder": (
         precision_ladder, {"toy": TOY, **SHORT, "precisions": ["float32"]},

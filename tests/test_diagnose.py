@@ -14,7 +14,7 @@ from primer.study.catalogue import HARD_CASES
 from primer.study.diagnosis import Kind
 from primer.study.forecast import Forecast
 from primer.study.leap import Half
-from primer.study.spectrum import jacobian
+from primer.study.spectrum import fastest, growing, jacobian
 from primer.study.stability import stable_dt
 
 
@@ -340,3 +340,12 @@ def test_discrete_steady_state_is_where_the_smooth_solution_comes_to_rest():
     """A converged run stands on it; what diagnose takes to be still is."""
     run = ftcs(Toy(1.5), 60, 1e-3, 60.0)
     np.testing.assert_allclose(run.final, discrete_steady(Toy(1.5), run.x, Grid(60).h), atol=1e-12)
+
+
+def test_the_fastest_mode_need_not_be_the_one_that_the_seed_holds():
+    """A packet near k = N/4 grows at 0.323, and the seed, near the sawtooth, holds another that grows at 0.305."""
+    case = (Toy(0.5), 72, 4.5e-3, 60.0, Seed(35, 1e-5))
+    earliest, latest = diagnose(*case).blow_up
+    assert earliest < ftcs(*case[:-1], seed=case[-1]).t_stop < latest
+    assert fastest(Toy(0.5), 72, 4.5e-3).lam.imag > 1
+    assert any(mode.lam.imag < 1 for mode in growing(Toy(0.5), 72, 4.5e-3))

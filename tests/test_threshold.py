@@ -12,7 +12,7 @@ from primer import Toy, checks, ftcs, grid_threshold
 from primer.schemes.discrete import discrete_steady
 from primer.schemes.grid import Grid
 from primer.study import spectrum, threshold
-from primer.study.spectrum import Parity, depth, fastest, growth, jacobian, rate
+from primer.study.spectrum import Parity, depth, fastest, growing, growth, jacobian, rate
 from primer.study.stability import frozen_dt
 from primer.study.threshold import _first_unstable, _quarter_ratio, _sawtooth_ratio, unstable
 
@@ -59,6 +59,23 @@ def test_fastest_mode_is_the_dense_one(seed):
     mirrored = -np.arange(n) % n
     np.testing.assert_allclose(mode.u[mirrored], sign * mode.u, atol=1e-8)
     np.testing.assert_allclose(mode.v[mirrored], -sign * mode.v, atol=1e-8)
+
+
+def test_the_growing_modes_are_all_of_the_jacobian():
+    random = np.random.default_rng(8)
+    for _ in range(12):
+        toy, n = Toy(random.uniform(-2, 1.2), 10 ** random.uniform(-2.5, -1)), int(random.integers(20, 70))
+        J, modes = jacobian(toy, n), growing(toy, n)
+        assert modes[0].lam == fastest(toy, n).lam
+        for mode in modes:
+            z = np.concatenate([mode.u, mode.v])
+            assert np.abs(J @ z - mode.lam * z).max() < 1e-9 * np.abs(J).max()
+        lam = dense_rates(toy, n)
+        found = np.array([mode.lam for mode in modes])
+        for one in lam[(lam.real > 1e-6) & (lam.imag >= 0)]:
+            assert np.abs(found - one).min() < 1e-7 * np.abs(lam).max()
+        assert (found.real > 0).all() or len(found) == 1
+        assert (np.diff(found.real) <= 0).all()
 
 
 def test_structured_search_finds_what_the_dense_one_does(monkeypatch):

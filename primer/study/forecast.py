@@ -16,7 +16,7 @@ from primer.problems.toy import tendency
 from primer.schemes.discrete import discrete_steady
 from primer.schemes.grid import Grid
 from primer.study.leap import Half
-from primer.study.spectrum import Parity, fastest, rate
+from primer.study.spectrum import Parity, growing, rate
 from primer.study.stability import frozen_dt
 
 _FILTER = 1e-12  # well over the round-off of a solve, well under anything smooth
@@ -24,7 +24,7 @@ _STRIDE = 0.05  # the longest stride: the solution moves on a time scale of 1
 _GROWTH = 0.3  # most growth in a stride: R(z) is off by z^2/12 there
 _WAVE = 0.5  # the longest stride over h where waves grow: they oscillate at 1/h
 _SETTLED = 1e-4  # distance from the steady state at which the solution stands still: e^{-t/2} at t = 18
-_AFTER = 5.0  # how long to march on from there before the fastest mode speaks for all
+_AFTER = 5.0  # how long to march on from there before each mode that grows goes its own way
 _ROUNDING = 0.2  # standard deviation of a rounding error over epsilon |u|: uniform within half a unit of the last place
 
 
@@ -66,7 +66,7 @@ def forecast(toy, n, dt, t_end, seed=None, epsilon=2.0**-52, blow_up_at=1e3, loc
             cause = _SMOOTH if not away < blow_up_at else waves.largest()
             return Forecast(t + dt, cause == _SEED, cause == _SMOOTH, t_negative)
         if m == 0 or t > t_still + _AFTER:
-            left, cause = waves.outlook(fastest(toy, n, dt), dt, t, locks)
+            left, cause = min(waves.outlook(mode, dt, t, locks) for mode in growing(toy, n, dt))
             return Forecast(t + left, cause == _SEED, cause == _SMOOTH, t_negative)
         if away < _SETTLED and not smooth.still:  # from here on the linear equations serve for everything
             t_still = t

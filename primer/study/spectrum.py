@@ -99,34 +99,21 @@ def fastest(toy, n, dt=0.0):
 
     With dt = 0 time is continuous. A mode that grows with dt but not without it is of the scheme.
     """
-    instance("toy", toy, Toy)
-    n, dt = Grid(n).n, real("dt", dt, least=0)
-    affordable("n: the search for eigenvalues", _BYTES * n, f"n = {n}")
-    found = (_rightmost(toy, n, parity, dt) for parity in Parity)
-    lam, parity, y = max(found, key=lambda mode: rate(mode[0], dt))
-    grid, (k, s, _, _) = Grid(n), _form(toy, n, parity)
-    half = 2 * np.sin(k * grid.h / 2) / grid.h
-    y = y / half
-    v = np.zeros(n, dtype=complex)
-    v[k] = y * (-1.0) ** k  # x = -pi + j h
-    if parity is Parity.OPPOSITE:
-        if s[-1] == 0:
-            v[k[-1]] /= math.sqrt(2)  # the sawtooth's norm on the grid is sqrt(2) times that of the other cosines
-        # The mean of v drives nothing and is driven by cos x times the first harmonic.
-        v[0] = toy.eps * grid.h / math.sin(grid.h) / 2 * half[0] ** 2 * y[0] / (lam + 1)
-        v = np.fft.fft(v) + n * np.fft.ifft(v)
-    else:
-        v = n * np.fft.ifft(v) - np.fft.fft(v)
-    v = v / v[np.argmax(np.abs(v))]
-    return Mode(n, complex(lam), parity, grid.x, grid.derivative(v, 1) / lam, v)
+    return _mode(toy, n, *_spectrum(toy, n, dt)[0])
+
+
+def growing(toy, n, dt=0.0):
+    """All modes that grow, the fastest first; the fastest alone if none does.
+
+    On more than 100 points it is those near the places where a mode can be the fastest.
+    """
+    first, *others = _spectrum(toy, n, dt)
+    return tuple(_mode(toy, n, *each) for each in [first, *(one for one in others if rate(one[0], dt) > 0)])
 
 
 def growth(toy, n, dt=0.0):
     """The :func:`rate` of the :func:`fastest` mode. Dimensionless."""
-    instance("toy", toy, Toy)
-    n, dt = Grid(n).n, real("dt", dt, least=0)
-    affordable("n: the search for eigenvalues", _BYTES * n, f"n = {n}")
-    return max(float(rate(_rightmost(toy, n, parity, dt)[0], dt)) for parity in Parity)
+    return float(rate(_spectrum(toy, n, dt)[0][0], dt))
 
 
 def rate(lam, dt=0.0):
@@ -150,8 +137,20 @@ def _form(toy, n, parity):
     return k, s, 1 + toy.eps * diagonal, toy.eps * off
 
 
-def _rightmost(toy, n, parity, dt):
-    """(lam, parity, y) of the eigenvalue of one parity with the largest rate."""
+def _spectrum(toy, n, dt):
+    """(lam, parity, y) of the eigenvalues found, Im lam >= 0, those of the largest rate first."""
+    instance("toy", toy, Toy)
+    n, dt = Grid(n).n, real("dt", dt, least=0)
+    affordable("n: the search for eigenvalues", _BYTES * n, f"n = {n}")
+    found = []
+    for parity in Parity:
+        for lam, y in zip(*_of_parity(toy, n, parity, dt), strict=True):
+            found.append((lam, parity, y) if lam.imag >= 0 else (lam.conj(), parity, y.conj()))
+    return sorted(found, key=lambda each: rate(each[0], dt), reverse=True)
+
+
+def _of_parity(toy, n, parity, dt):
+    """(lam, y): the eigenvalues of one parity, (m,), and their y, (m, number of wavenumbers)."""
     _, s, diagonal, off = _form(toy, n, parity)
     s = s[s > 0]
     if toy.eps == 0:  # every wavenumber by itself
@@ -168,9 +167,26 @@ def _rightmost(toy, n, parity, dt):
         if max(rate(lam, dt).max() for lam, _ in found) < 0:  # what decays last is near the sawtooth, or a packet
             found += [_near(s, diagonal, off, shift) for shift in (_SLOW, _packet(toy, n))]
         lam, vectors = (np.concatenate(part, axis=-1) for part in zip(*found, strict=True))
-    best = np.argmax(rate(lam, dt))
-    y = vectors[s.size :, best]
-    return (lam[best], parity, y) if lam[best].imag >= 0 else (lam[best].conj(), parity, y.conj())
+    return lam, vectors[s.size :].T
+
+
+def _mode(toy, n, lam, parity, y):
+    """The :class:`Mode` of an eigenvalue."""
+    grid, (k, s, _, _) = Grid(n), _form(toy, n, parity)
+    half = 2 * np.sin(k * grid.h / 2) / grid.h
+    y = y / half
+    v = np.zeros(n, dtype=complex)
+    v[k] = y * (-1.0) ** k  # x = -pi + j h
+    if parity is Parity.OPPOSITE:
+        if s[-1] == 0:
+            v[k[-1]] /= math.sqrt(2)  # the sawtooth's norm on the grid is sqrt(2) times that of the other cosines
+        # The mean of v drives nothing and is driven by cos x times the first harmonic.
+        v[0] = toy.eps * grid.h / math.sin(grid.h) / 2 * half[0] ** 2 * y[0] / (lam + 1)
+        v = np.fft.fft(v) + n * np.fft.ifft(v)
+    else:
+        v = n * np.fft.ifft(v) - np.fft.fft(v)
+    v = v / v[np.argmax(np.abs(v))]
+    return Mode(n, complex(lam), parity, grid.x, grid.derivative(v, 1) / lam, v)
 
 
 def _shifts(toy, n, dt):
