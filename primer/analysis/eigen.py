@@ -111,7 +111,8 @@ def _log_derivative(S, E, lam):
         return np.trace(np.linalg.solve(A, scaled_E), axis1=-2, axis2=-1)
     except np.linalg.LinAlgError:  # some lambda is a root to the last bit
         out = np.full(lam.shape, np.inf, dtype=complex)
-        regular = np.linalg.det(A) != 0
+        with np.errstate(invalid="ignore"):
+            regular = np.linalg.det(A) != 0
         out[regular] = np.trace(np.linalg.solve(A[regular], scaled_E[regular]), axis1=-2, axis2=-1)
         return out
 

@@ -71,7 +71,7 @@ class Symbol:
             raise PDEError(str(singular)) from None
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class _Matrix:
     """The matrix of sums of c (i xi_1)^a (i xi_2)^b, a callable of xi as a Pencil wants it."""
 
