@@ -52,7 +52,8 @@ class Watch:
             of_file = lines.setdefault(Path(path).relative_to(ROOT).as_posix(), {})
             for line, tests in data.contexts_by_lineno(path).items():
                 of_file.setdefault(str(line), []).extend(test for test in tests if test and test not in self.left_out)
-        return {"seconds": before["seconds"] | self.seconds, "lines": lines}
+        seconds = before["seconds"] | self.seconds
+        return {"seconds": {test: seconds[test] for test in seconds if test not in self.left_out}, "lines": lines}
 
 
 def guards(known, file, first, last, cap):
