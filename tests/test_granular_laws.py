@@ -395,3 +395,9 @@ def test_a_state_is_admitted_with_its_yield_stress_or_refused_with_the_numbers()
             call(3)
     with pytest.raises(TypeError, match="state must be a BaseState, got 3"):
         admit(law, 3)
+
+
+@pytest.mark.parametrize("phi0", [0.0, 1.0, 1.5])
+def test_a_compaction_begins_below_one(phi0):
+    with pytest.raises(ValueError, match="phi0 must be a finite number > 0 and < 1"):
+        Compaction(phi0, 0.1, 1.0)
