@@ -50,6 +50,7 @@ def test_round_off_is_what_a_small_seed_overtakes(reference):
     assert not coarse.from_round_off.any()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("pool", [ThreadPoolExecutor, ProcessPoolExecutor])
 def test_any_executor_gives_the_same_map(reference, pool):
     options = {} if pool is ThreadPoolExecutor else {"mp_context": get_context("spawn")}

@@ -146,6 +146,7 @@ def test_the_mode_of_the_seed_matters(seed, seeded):
     assert found.kind == "ill-posed"
 
 
+@pytest.mark.slow
 def test_each_kind_by_name():
     kinds = [
         diagnose(*scene).kind for scene in [(Toy(1.5),), (Toy(0.5), 30), (Toy(0.5),), (Toy(1.1),), (Toy(1.5, 0), 300)]

@@ -147,6 +147,7 @@ def test_a_snapshot_says_what_it_shows(explorer):
     assert pixels(data["image/png"]).shape[1] > 700
 
 
+@pytest.mark.slow
 @every
 def test_a_snapshot_of_an_explorer_starts_from_where_it_is(explorer):
     shown = explorer.from_state(list(explorer.presets.values())[-1])

@@ -137,6 +137,7 @@ def test_an_interrupted_or_failing_drawing_leaves_the_old_files(tmp_path, monkey
     assert {path.name: path.read_text() for path in tmp_path.iterdir()} == old
 
 
+@pytest.mark.slow
 def test_list_names_every_figure():
     result = run("--list")
     assert result.returncode == 0

@@ -258,6 +258,7 @@ def test_ctrl_c_returns_what_was_recorded():
     np.testing.assert_array_equal(run.final, list(march(1.5, 0.01, 16, 0.01, 39))[-1])
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(sys.platform == "win32", reason="sends a POSIX signal")
 def test_ctrl_c_stops_the_compiled_loop():
     code = (

@@ -316,6 +316,7 @@ def test_equations_that_do_not_determine_the_unknowns_are_refused_by_every_route
             ask("u_t + v_t = u_x; u_t + v_t*(1 + 1e-20) = u_x")
 
 
+@pytest.mark.slow
 def test_numbers_at_the_edge_of_what_can_be_represented():
     """lambda = 0 twice, and -i/xi_2: where one is sought beside the others, entries reach 1e-320. No warning."""
     assert verdict("u_tt = 0; v = v_yt").kind == "well-posed"

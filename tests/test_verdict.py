@@ -190,6 +190,7 @@ def test_maximal_order_can_mislead():
     assert (full.exponent, full.coefficient) == (maximal.exponent, maximal.coefficient)  # eq. (toy-pde-lin)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("p", "kind", "exponent", "coefficient"),
     [(0.3, ILL, 1, 0.6), (0.5, ILL, Fraction(2, 3), None), (0.7, WELL, 0, -5.6)],
