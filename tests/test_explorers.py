@@ -110,6 +110,7 @@ def test_what_is_wrong_is_said_and_can_be_put_right(explorer):
         assert shown._image.layout.visibility == "visible"
 
 
+@pytest.mark.slow
 @every
 def test_states_and_names_that_make_no_sense(explorer):
     with pytest.raises(ValueError, match=r"state must be NAME=VALUE .* got 'nonsense'"):

@@ -203,6 +203,7 @@ def test_M_N_and_V_are_as_printed():
     np.testing.assert_allclose(V(c, xi), [(c.Y_phi + (1 + B) * g) * x, (-c.Y_phi + (1 - B) * g) * y], rtol=1e-13)
 
 
+@pytest.mark.slow
 def test_the_dispersion_relation_is_the_determinant_of_the_pencil():
     A, B, C, G, t, Y, f, D, phi, rho, lam, x1, x2 = sp.symbols("A B C Gamma t Y_phi f_phi D phi rho lam x1 x2")
     R = rho * phi

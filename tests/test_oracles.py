@@ -159,6 +159,7 @@ def test_growth_rates_of_text_against_mpmath(xi):
             assert abs(mp.mpc(complex(mine)) - theirs) <= 1e-13 * abs(theirs)
 
 
+@pytest.mark.slow
 def test_the_best_direction_against_brents_method():
     pencil = granular(0.3, 0.5, 0.1, 0.7, 0.4, 0.6, 0.8)
 

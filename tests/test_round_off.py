@@ -60,6 +60,7 @@ def test_thirty_digits_blow_up_too():
     assert earliest <= run.t_stop <= latest
 
 
+@pytest.mark.slow
 def test_one_ulp_moves_the_blow_up_by_an_e_folding_or_so():
     run = ftcs(PAPER)
     moved = one_ulp(PAPER, 100, 1e-3, 40.0, [25, 75])

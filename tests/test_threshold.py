@@ -78,6 +78,7 @@ def test_the_growing_modes_are_all_of_the_jacobian():
         assert (np.diff(found.real) <= 0).all()
 
 
+@pytest.mark.slow
 def test_structured_search_finds_what_the_dense_one_does(monkeypatch):
     """On fine grids a few inverse iterations replace all eigenvalues: with and without a time step."""
     random, cases = np.random.default_rng(1), []

@@ -209,6 +209,7 @@ def test_critical_state_soil(p, kind, exponent, coefficient):
         assert found.coefficient == pytest.approx(coefficient, rel=1e-9)
 
 
+@pytest.mark.slow
 def test_pencils_of_numbers():
     assert verdict(navier_stokes(0.1)).coefficient == pytest.approx(-0.1)
     compressible = verdict(granular(0.3, 0.2, 0.2, 0.7, 0.4, 0.6, -0.8))
