@@ -542,3 +542,34 @@ def test_long_entries_are_left_as_they_are():
     assert (short.count_ops(), long.count_ops()) == (99, 100)
     assert _tidied(short) == sp.cancel(short) != short
     assert _tidied(long) is long
+
+
+@pytest.mark.parametrize(
+    ("text", "at"),
+    [
+        ("u_t = ((2)/(u_xx)-(u)^(u_xx))_yt", {"u": 1e9, "u_x": 1, "t": 2.5}),
+        (
+            "u_t = 2/(i^(1/2))/(((t*u_x)/v)_yt); u_x = (-1e-9)_yt/(u^a + v_xy)",
+            {"u": 0.0, "u_x": 2.5, "y": 2.5, "a": 1e9},
+        ),
+        ("u_xt - u_x = (sinh((cosh(u_xx))_yt) - (y)_yt)^2", {"u": 1j, "u_xx": 1e9, "x": -0.5, "t": 0}),
+    ],
+)
+def test_huge_numbers_are_not_simplified_for_ever(text, at):
+    """Each kept sympy's inverse of a matrix busy for more than half a minute."""
+    assert linearise(text, at=at).has(sp.Symbol("lambda"))
+
+
+def test_equations_are_solved_for_their_time_derivatives_where_they_can_be():
+    """Against sympy's own inverse, with symbols and with numbers; a singular matrix of them is left as it is."""
+    lam, xi, c = sp.symbols("lambda xi c")
+    solved = linearise("u_t + c*v_t = u_x; v_t - u_t = v_xx")
+    E, S = sp.Matrix([[1, c], [-1, 1]]), sp.Matrix([[-sp.I * xi, 0], [0, xi**2]])
+    assert (solved + E.inv() * S).applyfunc(sp.simplify).is_zero_matrix
+    assert not solved.has(lam)
+    three = linearise("u_t + v_t = u_x; v_t + w_t = v_x; w_t + 2*u_t = w_xx")
+    E = sp.Matrix([[1, 1, 0], [0, 1, 1], [2, 0, 1]])
+    assert (three + E.inv() * sp.diag(-sp.I * xi, -sp.I * xi, xi**2)).applyfunc(sp.simplify).is_zero_matrix
+    for singular in ("u_t + v_t = u_x; 2*u_t + 2*v_t = v_x", "u_t + c*v_t = u_x; u_t/c + v_t = v_x"):
+        assert linearise(singular).has(lam)
+    assert not linearise("u_t + v_t = u_x; u_t + (1 + 1e-20)*v_t = v_x").has(lam)

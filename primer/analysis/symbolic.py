@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from contextlib import suppress
+from itertools import product
 from typing import Any
 
 import mpmath as mp
 import numpy as np
 import sympy as sp
-from sympy.matrices.exceptions import NonInvertibleMatrixError
 
 from primer.analysis.linear import read
 from primer.analysis.pencil import Pencil
@@ -143,9 +142,8 @@ def linearise(text: str, *, at: dict[str, Any] | None = None, order: str = "full
     S, E = (parts.get(n, sp.zeros(size)) for n in (0, 1))
     if max(parts, default=0) == 1 and sp.eye(size) == E:
         return -S
-    if max(parts, default=0) == 1 and size <= 3:
-        with suppress(NonInvertibleMatrixError):
-            return (E.inv() * -S).applyfunc(_tidied)
+    if max(parts, default=0) == 1 and size <= 3 and _regular(E):
+        return (E.adjugate() * -S / E.det()).applyfunc(_tidied)  # up to 3 x 3 by formula: E.inv() simplifies for ever
     return sum((lam**n * part for n, part in parts.items()), sp.zeros(size))
 
 
@@ -170,6 +168,21 @@ def _what_is_missing(missing, system):
     if parameters:
         parts.append("parameters " + ", ".join(f"{name}=..." for name in parameters))
     return "not given: " + " and ".join(parts)
+
+
+def _regular(E):
+    """Whether det E does not vanish identically: at a point in general position, to many digits."""
+    names = sorted(symbol.name for symbol in E.free_symbols)
+    point = {name: sp.Rational(2 * j + 3, 3 * j + 4) for j, name in enumerate(names)}
+    try:
+        with mp.workdps(60):
+            numbers = mp.matrix(E.rows, E.cols)
+            for place in product(range(E.rows), repeat=2):
+                numbers[place] = evaluated(E[place], point)
+            scale = mp.norm(numbers, mp.inf) ** E.rows
+            return bool(abs(mp.det(numbers)) > mp.mpf(10) ** -40 * scale)
+    except PDEError:  # not to be had in numbers
+        return False
 
 
 def _tidied(entry):
