@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 import sympy as sp
 
+from primer import linearise, verdict
 from primer.analysis.linear import read
 from primer.analysis.text import PDEError
 from primer.analysis.values import checked, evaluated, substituted
@@ -175,3 +176,10 @@ def test_a_long_expression_is_shown_in_part():
     for length, shown in ((58, "u" * 58), (59, "u" * 55 + "...")):  # 60 characters in all, or 57 and three dots
         with pytest.raises(PDEError, match=says(f"the base state makes 1/{shown}{DIVIDES}")):
             evaluated(1 / sp.Symbol("u" * length), {"u" * length: sp.Integer(0)})
+
+
+@pytest.mark.parametrize("text", ["u_t = u_x/u", "u_t = (u_x/(a*a - x/u))_x", "u_t = c*u_x/(u - u^2) + k*u_xx"])
+def test_a_division_by_zero_is_said_with_or_without_the_other_values(text):
+    for ask in (linearise, verdict):
+        with pytest.raises(PDEError, match="divide by zero: it cannot be linearised there"):
+            ask(text, at={"u": 0, "u_x": 1, "u_xx": 1, "x": 1}, **{k: 0 for k in "ac" if f"{k}*" in text})

@@ -58,7 +58,7 @@ def substituted(expression, values):
 
     Raises
     ------
-    PDEError    for a power with too many digits
+    PDEError    for a power with too many digits, or a division by zero
     """
     if expression.is_Symbol:
         return values.get(expression.name, expression)
@@ -69,7 +69,10 @@ def substituted(expression, values):
         bits = max((abs(a.p) * a.q).bit_length() for a in [*args[0].atoms(sp.Rational), sp.S.One])
         if abs(args[1]) * bits > BITS:
             raise PDEError(f"the base state makes {_short(expression)} a power that is too large to write out")
-    return expression.func(*args)
+    value = expression.func(*args)
+    if value in (sp.nan, sp.zoo):
+        raise PDEError(f"the base state makes {_short(expression)} divide by zero: it cannot be linearised there")
+    return value
 
 
 def evaluated(expression, values):
