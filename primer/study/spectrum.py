@@ -162,6 +162,7 @@ def _of_parity(toy, n, parity, dt):
         matrix[range(s.size, 2 * s.size), range(s.size)] = -s
         matrix[s.size :, s.size :] = -(np.diag(diagonal) + np.diag(off, 1) + np.diag(off, -1))
         lam, vectors = np.linalg.eig(matrix)
+        lam, vectors = lam[lam.imag >= 0], vectors[:, lam.imag >= 0]  # the others are their conjugates
     else:
         found = [_near(s, diagonal, off, shift) for shift in _shifts(toy, n, dt)]
         if max(rate(lam, dt).max() for lam, _ in found) < 0:  # what decays last is near the sawtooth, or a packet
