@@ -25,29 +25,24 @@ class Writer:
         self.text += token
         return place
 
-    def sum(self, depth):
-        node = self.product(depth)
+    def chain(self, part, depth, signs):
+        """Some of ``part``, joined by the two signs; the second of them is a node of its own."""
+        node = part(depth)
         if self.rng.random() < 0.6:
             return node
-        first, terms = self.first, [node]
-        for sign in self.rng.choices("+-", k=self.rng.randint(1, 2)):
+        first, parts, (whole, inverse) = self.first, [node], signs
+        for sign in self.rng.choices(signs, k=self.rng.randint(1, 2)):
             at = self.put(sign)
-            term = self.product(depth)
-            terms.append(N("-", at, operands=(term,)) if sign == "-" else term)
+            node = part(depth)
+            parts.append(N(inverse, at, operands=(node,)) if sign == inverse else node)
         self.first = first
-        return N("+", first, operands=tuple(terms))
+        return N(whole, first, operands=tuple(parts))
+
+    def sum(self, depth):
+        return self.chain(self.product, depth, "+-")
 
     def product(self, depth):
-        node = self.signed(depth)
-        if self.rng.random() < 0.6:
-            return node
-        first, factors = self.first, [node]
-        for sign in self.rng.choices("*/", k=self.rng.randint(1, 2)):
-            at = self.put(sign)
-            factor = self.signed(depth)
-            factors.append(N("/", at, operands=(factor,)) if sign == "/" else factor)
-        self.first = first
-        return N("*", first, operands=tuple(factors))
+        return self.chain(self.signed, depth, "*/")
 
     def signed(self, depth):
         if depth and self.rng.random() < 0.2:
