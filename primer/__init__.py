@@ -28,7 +28,7 @@ _HOME = {
     "Lines": "schemes.lines",
     "MaxGrowth": "analysis.directions",
     "MuI": "granular.friction",
-    "PDEError": "analysis.text",
+    "PDEError": "equations.text",
     "PastHorizon": "schemes.reference",
     "Pencil": "analysis.pencil",
     "RK4": "schemes.runge_kutta",
@@ -61,7 +61,7 @@ _HOME = {
     "verdict": "analysis.verdict",
     "work_precision": "study.cost",
 }
-_ROOMS = ("exercises", "problems", "schemes", "analysis", "granular", "study", "scenes", "view")
+_ROOMS = ("exercises", "equations", "problems", "schemes", "analysis", "granular", "study", "scenes", "view")
 
 __all__ = sorted(_HOME)
 

@@ -1,6 +1,7 @@
 """What a type checker sees of ``primer``: the names that __init__.py loads when they are first asked for."""
 
 from . import analysis as analysis
+from . import equations as equations
 from . import exercises as exercises
 from . import granular as granular
 from . import problems as problems
@@ -15,9 +16,9 @@ from .analysis.pencil import Pencil as Pencil
 from .analysis.pencil import growth as growth
 from .analysis.symbolic import growth_rates as growth_rates
 from .analysis.symbolic import linearise as linearise
-from .analysis.text import PDEError as PDEError
 from .analysis.verdict import Verdict as Verdict
 from .analysis.verdict import verdict as verdict
+from .equations.text import PDEError as PDEError
 from .granular.compaction import Compaction as Compaction
 from .granular.criteria import critical_state as critical_state
 from .granular.criteria import neutral_inertial_numbers as neutral_inertial_numbers

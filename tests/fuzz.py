@@ -13,7 +13,7 @@ from collections import Counter
 
 from primer import PDEError, growth, linearise, verdict
 from primer.analysis.symbolic import pencil
-from primer.analysis.text import FUNCTIONS, LENGTH, parse
+from primer.equations.text import FUNCTIONS, LENGTH, parse
 
 LIMIT = 30
 GOOD = (

@@ -25,6 +25,7 @@ FLOORS = [
     "claims",
     "arithmetic",
     "compiled",
+    "equations",
     "problems",
     "schemes",
     "analysis",

@@ -8,8 +8,8 @@ import re
 
 import pytest
 
-from primer.analysis.text import FUNCTIONS, PDEError, _marked, _tokens, parse, split_name
-from primer.analysis.text import Node as N
+from primer.equations.text import FUNCTIONS, PDEError, _marked, _tokens, parse, split_name
+from primer.equations.text import Node as N
 
 
 class Writer:

@@ -31,7 +31,7 @@ from primer import (
     march_lines,
     verdict,
 )
-from primer.analysis.text import FUNCTIONS, Node, parse
+from primer.equations.text import FUNCTIONS, Node, parse
 from primer.granular import IncompressibleMuI
 from primer.granular import linearise as linearise_law
 from primer.granular.criteria import incompressible_criterion

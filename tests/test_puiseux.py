@@ -25,7 +25,7 @@ from primer.analysis.puiseux import (
 from primer.analysis.roots import ZERO
 from primer.analysis.symbol import Symbol
 from primer.analysis.symbolic import symbol as symbol_of
-from primer.analysis.text import PDEError
+from primer.equations.text import PDEError
 
 WAVES = Pencil(lambda xi: np.array([[0, -2j * xi], [-2j * xi, 0]]), np.eye(2))
 SINE = Pencil(lambda xi: [[np.sin(xi)]], [[1]])

@@ -16,7 +16,7 @@ from primer import Pencil
 from primer.analysis.determinant import determinant
 from primer.analysis.recover import recovered
 from primer.analysis.symbol import Symbol
-from primer.analysis.text import PDEError
+from primer.equations.text import PDEError
 
 
 def times(p, q):

@@ -12,9 +12,9 @@ import pytest
 import sympy as sp
 
 from primer import BackwardHeat, Toy, growth_rates, linearise, verdict
-from primer.analysis.linear import read
 from primer.analysis.symbolic import _tidied, pencil, symbol
-from primer.analysis.text import PDEError, parse
+from primer.equations.linear import read
+from primer.equations.text import PDEError, parse
 from primer.schemes.grid import Grid
 
 TOY = "u_t = v_x; v_t = eps*u*v_xx + u_x - v - sin(x)"

@@ -12,9 +12,9 @@ import pytest
 import sympy as sp
 
 from primer import linearise, verdict
-from primer.analysis.linear import read
-from primer.analysis.text import PDEError
-from primer.analysis.values import checked, evaluated, substituted
+from primer.equations.linear import read
+from primer.equations.text import PDEError
+from primer.equations.values import checked, evaluated, substituted
 
 SYSTEM = read("u_t = a*u_xy + v; v_t = b*u + x*y*v*t")
 a, b, u, v = sp.symbols("a b u v")

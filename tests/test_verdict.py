@@ -18,8 +18,8 @@ import primer.analysis.supremum as supremum
 import primer.analysis.verdict as judge
 from primer import Pencil, Verdict, growth_rates, max_growth, verdict
 from primer.analysis.laws import exact_symbol
-from primer.analysis.text import PDEError
 from primer.analysis.verdict import _along_line, _is_real
+from primer.equations.text import PDEError
 
 ILL, WELL = "ill-posed", "well-posed"
 TOY = "u_t = v_x; v_t = eps*u*v_xx + u_x - v - sin(x)"

@@ -13,8 +13,8 @@ from primer.analysis.recover import recovered
 from primer.analysis.roots import DIGITS
 from primer.analysis.symbol import Symbol
 from primer.analysis.symbolic import symbol
-from primer.analysis.text import PDEError
 from primer.checks import real_array, shown
+from primer.equations.text import PDEError
 from primer.types import ArrayLike
 
 

@@ -15,7 +15,7 @@ import numpy as np
 from primer.analysis.determinant import determinant
 from primer.analysis.pencil import Pencil
 from primer.analysis.roots import DIGITS, ZERO
-from primer.analysis.text import PDEError
+from primer.equations.text import PDEError
 from primer.types import Multiplier
 
 

@@ -9,13 +9,13 @@ import mpmath as mp
 import numpy as np
 import sympy as sp
 
-from primer.analysis.linear import read
 from primer.analysis.pencil import Pencil
 from primer.analysis.roots import DIGITS
 from primer.analysis.symbol import Symbol
-from primer.analysis.text import PDEError
-from primer.analysis.values import checked, evaluated, substituted
 from primer.checks import shown
+from primer.equations.linear import read
+from primer.equations.text import PDEError
+from primer.equations.values import checked, evaluated, substituted
 from primer.types import ArrayLike, Multiplier
 
 
@@ -25,7 +25,7 @@ def symbol(text: str, *, at: dict[str, Any] | None = None, order: str = "full", 
     Parameters
     ----------
     text : str          equations such as "u_t = v_x; v_t = eps*u*v_xx + u_x - v - sin(x)"; the grammar is in
-                        ``primer.analysis.text``
+                        ``primer.equations.text``
     at : dict           base-state values by name: {"u": -0.5, "v_xx": 0.3}, and where x, y, t are frozen
     order : str         "full", or "maximal": in each equation only the highest space derivatives of each unknown are
                         kept, as in eq. (toy-pde-lin)

@@ -8,9 +8,9 @@ import numpy as np
 
 from primer.analysis.symbol import Symbol
 from primer.analysis.symbolic import linearise, symbol
-from primer.analysis.text import PDEError
 from primer.analysis.verdict import Kind, Verdict, verdict
 from primer.checks import integer, shown
+from primer.equations.text import PDEError
 from primer.schemes.grid import Grid
 
 MAX_N = 1024

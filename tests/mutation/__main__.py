@@ -140,7 +140,9 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("action", choices=("map", "run", "score", "check"))
     parser.add_argument("tests", nargs="*")
-    parser.add_argument("--folders", nargs="*", default=["problems", "schemes", "analysis", "granular", "study"])
+    parser.add_argument(
+        "--folders", nargs="*", default=["equations", "problems", "schemes", "analysis", "granular", "study"]
+    )
     parser.add_argument("--sample", type=int, default=60)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--cap", type=float, default=20)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import sympy as sp
 
-from primer.analysis.text import PDEError, parse, split_name
+from primer.equations.text import PDEError, parse, split_name
 
 ORDER = 12  # the highest derivative
 OPERATIONS = 400  # the longest expression that the derivative of a bracket may grow to: at 1000 sympy can take minutes

@@ -8,8 +8,8 @@ import mpmath as mp
 import numpy as np
 import sympy as sp
 
-from primer.analysis.text import PDEError, split_name
 from primer.checks import shown
+from primer.equations.text import PDEError, split_name
 
 BITS = 100_000  # the largest exact power, in bits: 3^(10^9) would take for ever
 LARGEST = 1e6  # the largest argument of a function: the exponential of this has half a million digits before its point
