@@ -48,10 +48,18 @@ class Stencil:
         """Apply it to samples f of shape (..., n) of a periodic function on a grid of spacing h."""
         reach, n = max(map(abs, self.offsets)), f.shape[-1]
         ghosts = np.concatenate((f[..., n - reach :], f, f[..., :reach]), axis=-1)
-        total: Any = 0
+        if ghosts.dtype.kind == "c":  # real factors multiply both parts, as they are
+            found = np.empty_like(f)
+            found.real, found.imag = (self._sum(part, reach, n, h) for part in (ghosts.real, ghosts.imag))
+            return found
+        return self._sum(ghosts, reach, n, h)
+
+    def _sum(self, ghosts, reach, n, h):
+        total: Any = None
         for offset, weight in zip(self.offsets, self.weights, strict=True):
             term = ghosts[..., reach + offset : reach + offset + n]
-            total = total + (term if weight == 1 else weight * term)
+            term = term if weight == 1 else weight * term
+            total = term if total is None else total + term
         return total * self.scale(h)
 
     def multiplier(self, xi: ArrayLike, h: float) -> Numbers:
