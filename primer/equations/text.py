@@ -32,7 +32,7 @@ _SPOKEN = str.maketrans({"−": "-", "·": "*", "×": "*"})  # noqa: RUF001
 
 
 class PDEError(ValueError):
-    """The text of an equation, or what goes with it, cannot be used; the message shows the text and the place.
+    """The text of an equation, or what goes with it, cannot be used; the message shows the place.
 
     Section A2.1 needs equations that determine their unknowns, in the notation of ``primer verdict``.
 
@@ -65,15 +65,26 @@ class Node:
 def parse(text):
     """The equations of ``text`` as a list of pairs (left, right) of nodes.
 
-    Raises
-    ------
-    PDEError    with the text and a caret under the place where it goes wrong
+    Raises PDEError, with the text and a caret under the place where it goes wrong.
     """
+    return _parser("the equations", "u_t = u_xx", text).equations()
+
+
+def parse_expression(text):
+    """The node of an expression such as "a - cos(x)", which has no "="; otherwise as :func:`parse`."""
+    parser = _parser("an expression", "a - cos(x)", text)
+    node = parser.sum()
+    if parser.tokens[parser.next][0] != "end":
+        parser.fail("expected an operator, as in 2*u" if parser._is_operand() else "the expression should end here")
+    return node
+
+
+def _parser(what, example, text):
     if not isinstance(text, str):
-        raise TypeError(f"the equations must be a string such as 'u_t = u_xx', got {type(text).__name__}")
+        raise TypeError(f"{what} must be a string such as {example!r}, got {type(text).__name__}")
     if len(text) > LENGTH:
         raise PDEError(f"the text has {len(text)} characters, more than the {LENGTH} allowed")
-    return _Parser(text, list(_tokens(text.translate(_SPOKEN)))).equations()
+    return _Parser(text, list(_tokens(text.translate(_SPOKEN))))
 
 
 def split_name(name):
