@@ -39,6 +39,7 @@ class Scalars:
 
     @property
     def pi(self):
+        """Pi."""
         return +self.context.pi if self.context else self.dtype.type(_PI)
 
 

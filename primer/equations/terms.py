@@ -90,14 +90,15 @@ class Builder:
         self.parameters: dict = {}
 
     def fail(self, problem, node):
+        """Raise a PDEError that points at the node."""
         raise PDEError(problem, self.text, node.place)
 
     def build(self, node):
         """The term of a node."""
-        build = {"+": self.sum, "*": self.product, "-": self.minus, "^": self.power}
-        return (build.get(node.kind) or getattr(self, node.kind))(node)
+        build = {"+": self._sum, "*": self._product, "-": self._minus, "^": self._power}
+        return (build.get(node.kind) or getattr(self, f"_{node.kind}"))(node)
 
-    def number(self, node):
+    def _number(self, node):
         digits, imaginary = node.value
         _, _, exponent = digits.lower().partition("e")
         if len(digits) > 60 or abs(int(exponent or "0")) > 300:
@@ -105,7 +106,7 @@ class Builder:
         value = Term("number", digits)
         return times(value, Term("i")) if imaginary else value
 
-    def name(self, node):
+    def _name(self, node):
         base, letters = split_name(node.value)
         if base in self.unknowns:
             return self.unknown(base, letters, node)
@@ -118,17 +119,17 @@ class Builder:
         self.parameters[node.value] = None
         return Term("parameter", node.value)
 
-    def sum(self, node):
+    def _sum(self, node):
         total, *others = (self.build(term) for term in node.operands)
         for term in others:
             kind, term = ("-", term.operands[0]) if term.kind == "neg" else ("+", term)
             total = Term(kind, None, (total, term))
         return total
 
-    def minus(self, node):
+    def _minus(self, node):
         return Term("neg", None, (self.build(node.operands[0]),))
 
-    def product(self, node):
+    def _product(self, node):
         total = None
         for factor in node.operands:
             kind, inner = ("/", factor.operands[0]) if factor.kind == "/" else ("*", factor)
@@ -138,7 +139,7 @@ class Builder:
             total = value if total is None else Term(kind, None, (total, value))
         return total
 
-    def power(self, node):
+    def _power(self, node):
         base, exponent = node.operands
         value, a = rational(exponent), self.build(base)
         if value is not None and value.denominator == 1:
@@ -147,10 +148,10 @@ class Builder:
             return whole_power(a, int(value))
         return Term("call", "sqrt", (a,)) if value == Fraction(1, 2) else Term("^", None, (a, self.build(exponent)))
 
-    def call(self, node):
+    def _call(self, node):
         return Term("call", node.value, (self.build(node.operands[0]),))
 
-    def derivative(self, node):
+    def _derivative(self, node):
         if self.bracket is None:
             self.fail("a derivative has no place here", node)
         return self.bracket(node.value, self.build(node.operands[0]), node)

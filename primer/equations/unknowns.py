@@ -6,7 +6,7 @@ VARIABLES = ("x", "y", "t")
 
 
 def uses(equations, constants=()):
-    """{(name, its own derivatives, those of the brackets around it): None}, in the order of the text.
+    """{(name, its own derivatives, those of the brackets around it): its place}, in the order of the text.
 
     ``equations`` are pairs of nodes, as ``parse`` gives them; ``constants`` are names that are none.
     """
@@ -19,7 +19,7 @@ def uses(equations, constants=()):
 
 def _collect(node, around, constants, found):
     if node.kind == "name" and node.value not in constants:
-        found[*split_name(node.value), around] = None
+        found.setdefault((*split_name(node.value), around), node.place)
     for operand in node.operands:
         _collect(operand, around + (node.value if node.kind == "derivative" else ""), constants, found)
 
