@@ -22,7 +22,9 @@ def able():
     try:
         _compiler()
     except (ImportError, OSError, RuntimeError, AttributeError) as missing:
-        warnings.warn(f"llvmlite is not here ({missing}): results are the same, but slower", RuntimeWarning, stacklevel=5)
+        warnings.warn(
+            f"llvmlite is not here ({missing}): results are the same, but slower", RuntimeWarning, stacklevel=5
+        )
         return False
     return True
 

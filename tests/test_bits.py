@@ -68,7 +68,7 @@ def _dyadic(monkeypatch):
 @pytest.fixture(params=["compiled", "interpreted"])
 def _loop(request, monkeypatch):
     if request.param == "compiled":
-        pytest.importorskip("numba")
+        pytest.importorskip("llvmlite")
     monkeypatch.setattr(scheme, "_compiles", lambda problem, asked: request.param == "compiled")
 
 

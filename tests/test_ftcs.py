@@ -14,8 +14,10 @@ from transcription import dist, march
 
 import primer.schemes.ftcs as scheme
 from primer import BackwardHeat, Run, Seed, Stop, Toy, ftcs
-from primer.compiled import _say, compiled
+from primer.compiled import _compiler, able
+from primer.problems.pde import PDE
 from primer.schemes import record
+from primer.schemes.block import tally
 from primer.schemes.discrete import dist_floor
 from primer.schemes.grid import Grid
 from primer.schemes.record import plan
@@ -23,10 +25,10 @@ from primer.schemes.record import plan
 
 @pytest.fixture(params=["compiled", "interpreted"])
 def path(request, monkeypatch):
-    """Both time loops: the compiled one, and NumPy's as where numba cannot be imported."""
+    """Both time loops: the compiled one, and NumPy's as where llvmlite cannot be imported."""
     compiled = request.param == "compiled"
     if compiled:
-        pytest.importorskip("numba")
+        pytest.importorskip("llvmlite")
     monkeypatch.setattr(scheme, "_compiles", lambda problem, asked: compiled)
     return request.param
 
@@ -76,7 +78,7 @@ def test_more_digits_blow_up_later():
 
 
 def test_both_loops_give_the_same_blow_up(monkeypatch):
-    pytest.importorskip("numba")
+    pytest.importorskip("llvmlite")
     runs = []
     for fast in (True, False):
         monkeypatch.setattr(scheme, "_compiles", lambda problem, asked, fast=fast: fast)
@@ -276,16 +278,17 @@ def test_ctrl_c_stops_the_compiled_loop():
     assert out.split()[0] == "INTERRUPTED"
 
 
-def test_without_numba_it_is_said_once(monkeypatch):
-    monkeypatch.setitem(sys.modules, "primer.schemes.kernel", None)  # importing it now raises ImportError
-    compiled.cache_clear()
-    _say.cache_clear()
+def test_without_a_compiler_it_is_said_once(monkeypatch):
+    monkeypatch.setitem(sys.modules, "llvmlite.binding", None)  # importing it now raises ImportError
+    monkeypatch.setattr(scheme, "_SOON", 0)
+    able.cache_clear()
+    _compiler.cache_clear()
     try:
-        with pytest.warns(RuntimeWarning, match="numba is not here .*the same, but slower"):
+        with pytest.warns(RuntimeWarning, match="llvmlite is not here .*the same, but slower"):
             run = ftcs(Toy(1.5), 100, 1e-3, 0.02)
         ftcs(Toy(1.5), 100, 1e-3, 0.02)  # silent: a warning here would be an error
     finally:
-        compiled.cache_clear()
+        able.cache_clear()
     *_, last = march(1.5, 0.01, 100, 1e-3, 20)
     np.testing.assert_array_equal(run.final, last)
 
@@ -376,20 +379,21 @@ def a_plan(n=16, dt=0.01, t_end=1.0, record_every=None, snapshots=(), seed=None,
 
 
 def test_which_runs_are_for_the_compiled_loop(monkeypatch):
-    """Toy systems in machine numbers, where the compiler is loaded already or the run is long enough to be worth it."""
-    monkeypatch.setattr(scheme, "compiled", lambda module: object())
-    monkeypatch.delitem(sys.modules, scheme.KERNEL, raising=False)
-    long, short = a_plan(2**10, 1.0, 2.0**9 + 1), a_plan(2**10, 1.0, 2.0**9)  # 2^19 points and no more is short
-    assert scheme._compiles(Toy(1.5), long)
-    assert not scheme._compiles(Toy(1.5), short)
-    monkeypatch.setitem(sys.modules, scheme.KERNEL, scheme)
-    assert scheme._compiles(Toy(1.5), short)
+    """Problems of a text in machine numbers, once the steps of that text so far would have paid for the compiler."""
+    monkeypatch.setattr(scheme, "able", lambda: True)
+    monkeypatch.setattr(scheme, "started", lambda: False)
+    tally.cache_clear()
+    long, short = a_plan(dt=1.0, t_end=scheme._LATER + 1.0), a_plan(dt=1.0, t_end=scheme._LATER / 2)
+    assert scheme._compiles(PDE("u_t = 2*u_x", {"u": "sin(x)"}), long)
+    assert [scheme._compiles(Toy(1.5), short) for _ in range(4)] == [False, False, True, True]
+    assert not scheme._compiles(BackwardHeat(), short)
+    monkeypatch.setattr(scheme, "started", lambda: True)
+    assert scheme._compiles(BackwardHeat(), short)
     assert scheme._compiles(Toy(1.5), a_plan(dtype=np.float32))
     assert not scheme._compiles(Toy(1.5), a_plan(dtype=np.longdouble))
     assert not scheme._compiles(Toy(1.5), a_plan(digits=20))
-    assert not scheme._compiles(BackwardHeat(), short)
-    assert not scheme._compiles(Interrupting(1.5), short)
-    monkeypatch.setattr(scheme, "compiled", lambda module: None)
+    assert not scheme._compiles(Interrupting(1.5), long)
+    monkeypatch.setattr(scheme, "able", lambda: False)
     assert not scheme._compiles(Toy(1.5), long)
 
 

@@ -6,15 +6,53 @@ from functools import lru_cache
 import numpy as np
 
 from primer.compiled import machine_code
+from primer.problems.heat import BackwardHeat
+from primer.problems.pde import PDE
+from primer.problems.toy import Toy
 from primer.schemes.grid import CENTRAL
 from primer.schemes.kernel import BOOK, kernel
+from primer.schemes.passes import passes
 from primer.schemes.pointwise import KINDS
 from primer.schemes.slope import reach, width
-from primer.schemes.whole_rows import Numbers, fused
 from primer.schemes.watch import watch
+from primer.schemes.whole_rows import Numbers, fused
 
 MEMBERS = 8  # of a block: as many numbers as fill one or two vector registers
 CHUNK = 2**24  # grid points marched between two looks at the keyboard: about 0.02 s
+
+
+class _Tally:
+    """Steps that runs of one evolution have taken so far, or are about to take: what compiling is weighed against."""
+
+    steps = 0
+
+
+@lru_cache(maxsize=256)
+def tally(evolution):
+    """The count of an evolution."""
+    return _Tally()
+
+
+def of_text(problem):
+    """Whether a problem's right-hand side is made from its text, and not that of an object of someone's own."""
+    return getattr(type(problem), "rhs", None) in (Toy.rhs, BackwardHeat.rhs, PDE.rhs)
+
+
+def compilable(problem, n):
+    """Whether a problem on n points can be marched by machine code: its right-hand side is that of its text."""
+    if not of_text(problem):
+        return False
+    stencils = {m: CENTRAL[m] for m in problem.evolution.orders if m in CENTRAL}
+    return len(stencils) == len(problem.evolution.orders) and reach(stencils) <= n
+
+
+def fits_a_block(problem, asked):
+    """What problems must have in common to be members of one block, or None where this one must be marched alone."""
+    if asked.numbers.dtype not in (np.float32, np.float64) or not compilable(problem, asked.grid.n):
+        return None
+    _, x, state, _ = asked.start(problem)
+    form = Numbers(problem, x, state.real.dtype).form(state.dtype.kind == "c")
+    return None if form.clock or passes(problem.evolution, form).calls else (problem.evolution, form)
 
 
 @lru_cache(maxsize=256)
@@ -42,9 +80,9 @@ class Block:
         evolution = problems[0].evolution
         starts = [asked.start(problem) for problem in problems]
         self.logs = [log for _, _, _, log in starts]
-        h, x, state, _ = starts[0]
+        _, x, state, _ = starts[0]
         kind, self.real = KINDS[state.dtype.name], state.real.dtype
-        numbers = [Numbers(problem, x, self.real) for problem in problems]
+        numbers = [Numbers(problem, x, self.real) for problem, (_, x, _, _) in zip(problems, starts, strict=True)]
         form = numbers[0].form(state.dtype.kind == "c")
         stencils = {m: CENTRAL[m] for m in evolution.orders}
         self.reach = reach(stencils)
@@ -55,7 +93,7 @@ class Block:
 
         states = [rows(state) for _, _, state, _ in starts]
         ghosts = (0, 0), (0, 0), (self.reach, self.reach)
-        scalars = [asked.numbers.number(value) for value in (asked.dt, *(s.scale(h) for s in stencils.values()))]
+        scalars = [[asked.dt, *(stencil.scale(h) for stencil in stencils.values())] for h, _, _, _ in starts]
         steady = side_by_side(rows(np.array(log.steady, dtype=state.dtype)) for log in self.logs)
         slots = size if size > 1 else width(kind, x.size)
         code, loop = _step(evolution, kind, slots, size, form), _loop(kind, size)
@@ -68,8 +106,8 @@ class Block:
         self.arrays = {
             "w": w,  # (2, rows, n + 2 reach, members): step k is in buffer k % 2, with ghost cells
             "scratch": self.numbers.scratch,
-            "fixed": side_by_side(each.fixed() for each in numbers),
-            "numbers": side_by_side(each.constants(scalars) for each in numbers),
+            "fixed": side_by_side(n.fixed() for n in numbers),
+            "numbers": side_by_side(n.constants(first) for n, first in zip(numbers, scalars, strict=True)),
             "clocks": self.numbers.clocks,
             "steady": steady,
             "bounds": np.abs(steady).max(axis=1),  # (rows, members): how far from 0 the steady state is
@@ -87,7 +125,7 @@ class Block:
             self.arrays[name] for name in ("clock", "dist2", "u_min", "shots")
         )
         self.book = np.zeros(len(BOOK), np.int64)
-        given = {name: array.ctypes.data for name, array in self.arrays.items()} | {
+        given = {name: address(array) for name, array in self.arrays.items()} | {
             "call": self.numbers.address, "sweep": code.address("sweep"), "look": code.address("look"),
             "n": x.size, "every": asked.every, "shot_count": len(asked.times), "rows": w.shape[1],
             "reach": self.reach, "slots": slots, "bytes": w[0].nbytes,
@@ -103,7 +141,7 @@ class Block:
             while self.clock[2].min() == 0 and self.clock[0].max() < asked.steps and not self.halted:
                 until = min(self.clock[0].max() + CHUNK // self.arrays["w"][0].size + 1, asked.steps)
                 self.book[BOOK["until"][0]] = until
-                self.loop(self.book.ctypes.data)
+                self.loop(address(self.book))
                 self.numbers.raise_what_was_raised()
 
     def runs(self, interrupted=False):
@@ -117,6 +155,11 @@ class Block:
             step, _, blown_up, _ = log.clock
             state = self.shots[-1, ..., m] if blown_up else fields[step % 2, ..., m]
             yield log.run(problem, back(state, log.shots.dtype), interrupted and log.running)
+
+
+def address(array):
+    """Where its numbers are."""
+    return array.__array_interface__["data"][0]
 
 
 def rows(state):

@@ -167,9 +167,7 @@ def quotient(lanes, a, b):
         f"and {lanes.truth} {lanes.relation('oeq', size_r, zero)}, {lanes.relation('oeq', size_i, zero)}"
     )
     larger = lanes.relation("oge", size_r, size_i)
-    return tuple(
-        lanes.pick(both, n, lanes.pick(larger, x, y)) for n, x, y in zip(nothing, one, other, strict=True)
-    )
+    return tuple(lanes.pick(both, n, lanes.pick(larger, x, y)) for n, x, y in zip(nothing, one, other, strict=True))
 
 
 @dataclass(frozen=True, eq=False)

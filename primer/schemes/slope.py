@@ -8,6 +8,7 @@ from primer.schemes.pointwise import Lanes, Leaves, parts, pointwise
 from primer.schemes.writer import Writer
 
 _WIDE = {"float": 16, "double": 8}  # points that an operation serves: 64 bytes, one vector register, two or four
+PAD = 16  # rows that matrices make are a multiple of this long
 NONE = Form()
 
 
@@ -56,7 +57,9 @@ class Slope:
     def lay(self, base, n, count, reach):
         """Addresses of point 0 of so many rows, one behind the other."""
         length = self.length(n, reach)
-        return [self.write.at(self.kind, base, self.plus(self.times(length, k), reach * self.members)) for k in range(count)]
+        return [
+            self.write.at(self.kind, base, self.plus(self.times(length, k), reach * self.members)) for k in range(count)
+        ]
 
     def paired(self, rows):
         """The rows of the fields: by pairs where they are complex."""
@@ -155,7 +158,9 @@ class Slope:
                 write.put(f"call void {self.call}(i64 {calls.index(call)}, double {time})")
         self.differentiate(self.plan.last_derivatives)
         with self.over(self.n, carried) as (place, seen, then):
-            finish(place, [self.full(pointwise(term, lanes, leaves, place), term) for term in self.plan.last], seen, then)
+            finish(
+                place, [self.full(pointwise(term, lanes, leaves, place), term) for term in self.plan.last], seen, then
+            )
         return seen
 
     def full(self, value, term):
@@ -181,23 +186,22 @@ class Slope:
         """Where there are no stencils: f'_i = sum_o (f_o - f_0) D[o, i], o in order, into rows of their own."""
         if self.stencils or not slots:
             return
-        write, lanes, kind, orders = self.write, self.lanes, self.kind, self.evolution.orders
+        write, kind, orders = self.write, self.kind, self.evolution.orders
         of: dict = {}
         for slot in slots:
             of.setdefault(slot[0], []).append(slot)
+        lanes = Lanes(write, kind, PAD)
         for source, mine in of.items():
             for k, row in enumerate(parts(self.sources_now[source])):
                 start = self.one.read(row, "0")
-                with write.loop("0", self.padded, lanes.width) as (i, _, _):
+                with write.loop("0", self.padded, PAD) as (i, _, _):
                     carried = [(lanes.name, lanes.whole(0))] * len(mine)
                     with write.loop("0", self.n, 1, carried) as (o, seen, then):
                         apart = lanes.splat(self.one.operation("fsub", self.one.read(row, o), start))
                         for place, (_, m) in enumerate(mine):
                             line = self.plus(self.times(self.n, orders.index(m)), o)
-                            cell = self.plus(self.times(line, self.padded), i)
-                            weight = lanes.read(self.matrices, cell)
-                            term = lanes.operation("fmul", weight, apart)
-                            then[place] = lanes.operation("fadd", seen[place], term)
+                            weight = lanes.read(self.matrices, self.plus(self.times(line, self.padded), i))
+                            then[place] = lanes.operation("fadd", seen[place], lanes.operation("fmul", weight, apart))
                     for value, slot in zip(seen, mine, strict=True):
                         write.store(lanes.name, value, write.at(kind, self.derived[slot][k], i))
 

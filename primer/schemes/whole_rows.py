@@ -5,7 +5,7 @@ from functools import cache
 
 import numpy as np
 
-from primer.equations.evaluate import Known, known, operate, value
+from primer.equations.evaluate import Known, operate, value
 from primer.schemes.passes import Form, passes
 
 _CALL = ctypes.CFUNCTYPE(None, ctypes.c_int64, ctypes.c_double)
@@ -16,8 +16,9 @@ class Numbers:
 
     def __init__(self, problem, x, real):
         self.problem, self.x, self.real = problem, x, real
-        given = problem.forcing(x)
-        self.known = given if isinstance(given, Known) else problem._known(given)
+        with np.errstate(all="ignore"):  # a parameter beyond the largest number is infinite: a blow-up
+            given = problem.forcing(x)
+            self.known = given if isinstance(given, Known) else problem._known(given)
         self.raised = None
         self.callback = _CALL(self._guarded)
         self.address = ctypes.cast(self.callback, ctypes.c_void_p).value
@@ -31,7 +32,7 @@ class Numbers:
 
     def constants(self, first):
         """Those numbers, and behind them the constants, two for each that is complex."""
-        return np.array([*first, *_parts(self.known.constants)], self.real)
+        return np.array([*map(self.real.type, first), *_parts(self.known.constants)], self.real)
 
     def fixed(self):
         """(rows, n)."""

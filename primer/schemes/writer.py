@@ -123,7 +123,6 @@ class Writer:
         self.put(f"br label %{done}")
         self._label(done)
 
-
     def leave_if(self, condition):
         """Return from the function where a register is true."""
         out, on = self._name("out"), self._name("on")
