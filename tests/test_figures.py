@@ -1,5 +1,6 @@
 """Guards the main job: figures regenerate byte for byte, their numbers are held to, bad calls cost nothing."""
 
+import importlib
 import json
 import os
 import shutil
@@ -14,6 +15,8 @@ sys.path.insert(0, str(FIGURES))
 
 import regenerate  # noqa: E402
 import sidecar  # noqa: E402
+
+from primer.view.style import styled  # noqa: E402
 
 
 def run(*arguments, **options):
@@ -50,6 +53,21 @@ def test_pictures_are_the_same_bytes_each_time(made):
     first, second = made
     for path in second.iterdir():
         assert path.read_bytes() == (first / path.name).read_bytes(), path.name
+
+
+@pytest.mark.parametrize("name", ["fig33", "hadamard_modes", "toy_growth", "abs_sin"])
+def test_no_legend_hides_data(name):
+    """Nothing that is drawn lies behind a legend."""
+    script = importlib.import_module(name)
+    with styled():
+        figure = script.draw(script.compute())
+        figure.canvas.draw()
+        for ax in figure.axes:
+            if ax.get_legend() is not None:
+                box, frame = ax.get_legend().get_window_extent(), ax.bbox
+                for line in ax.lines:
+                    xy = line.get_transform().transform(line.get_xydata())
+                    assert not any(box.contains(*p) and frame.contains(*p) for p in xy), (name, line.get_label())
 
 
 @pytest.mark.slow

@@ -7,6 +7,7 @@ import matplotlib.style
 import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
+from matplotlib.transforms import ScaledTranslation
 
 _STYLE = Path(__file__).with_name("primer.mplstyle")
 U, V, STEADY, ILL = "#0072B2", "#D55E00", "#666666", "#FBE3D9"  # the colours of u, v, the steady state, and u < 0
@@ -18,6 +19,7 @@ _METADATA = {
     "pdf": {"CreationDate": None, "Creator": None, "Producer": None},
 }
 FORMATS = tuple(_METADATA)
+_UNDER = 36  # points below the axes: the ticks and the label of x
 
 
 @contextmanager
@@ -43,6 +45,15 @@ def new_figure(rows=1, columns=2, width=9.0, height=3.4, title=None, per_subplot
     if title:
         figure.suptitle(title, x=0.01, ha="left", fontsize=11)
     return figure, axes
+
+
+def legend_below(ax, ncols=2, **options):
+    """The legend under the axes, where it hides nothing, however the data move."""
+    below = ax.transAxes + ScaledTranslation(0, -_UNDER / 72, ax.figure.dpi_scale_trans)
+    options = {"fontsize": 8.5, "columnspacing": 1.2} | options
+    return ax.legend(
+        loc="upper center", bbox_to_anchor=(0.5, 0), bbox_transform=below, ncols=ncols, borderaxespad=0, **options
+    )
 
 
 def ticks(axis, values):
