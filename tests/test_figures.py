@@ -136,6 +136,36 @@ def test_a_number_that_is_not_finite_is_not_stored():
         sidecar.dumps({"x": sidecar.close(float("inf"), "x")})
 
 
+def test_what_is_there_and_holds_is_left_alone(tmp_path, monkeypatch):
+    """Another machine has other last digits, and a clone stays clean; a number that left its claim is written."""
+    made = regenerate._make("abs_sin", tmp_path, ["svg"], redraw=False)
+    assert made == ([], False)
+    svg, stored = tmp_path / "abs_sin.svg", tmp_path / "abs_sin.json"
+    assert "<title" in svg.read_text(encoding="utf-8")
+    assert "<desc" in svg.read_text(encoding="utf-8")
+    svg.write_text("as it was")
+    assert regenerate._make("abs_sin", tmp_path, ["svg"], redraw=False) == ([], True)
+    assert svg.read_text() == "as it was"
+    assert regenerate._make("abs_sin", tmp_path, ["png"], redraw=False) == ([], False)
+    assert (tmp_path / "abs_sin.png").exists()
+    numbers = json.loads(stored.read_text(encoding="utf-8"))
+    numbers[next(iter(numbers))]["value"] = 1e9
+    stored.write_text(json.dumps(numbers))
+    assert regenerate._make("abs_sin", tmp_path, ["svg"], redraw=False) == ([], False)
+    assert svg.read_text(encoding="utf-8") != "as it was"
+    svg.write_text("as it was")
+    assert regenerate._make("abs_sin", tmp_path, ["svg"], redraw=True) == ([], False)
+    assert svg.read_text(encoding="utf-8") != "as it was"
+
+
+def test_numbers_are_rounded_to_one_digit_more_than_is_claimed():
+    assert sidecar.close(0.12345678, "x", rtol=1e-3)["value"] == 0.12346
+    assert sidecar.close(12.345678, "x", atol=0.1)["value"] == 12.35
+    assert sidecar.close(0.1 + 0.2, "x")["value"] == 0.1 + 0.2
+    assert sidecar.within(14.4876, 12, 16, "x")["value"] == 14.49
+    assert sidecar.close(0.0, "x", rtol=1e-3)["value"] == 0.0
+
+
 def test_what_is_asked_for_twice_is_made_once(tmp_path):
     options = regenerate._options(["fig31", "fig32", "fig31", "--formats", "svg,png,svg", "--out", str(tmp_path)])
     assert (options.names, options.formats) == (["fig31", "fig32"], ["svg", "png"])
@@ -146,12 +176,12 @@ def test_an_interrupted_or_failing_drawing_leaves_the_old_files(tmp_path, monkey
     for name, text in old.items():
         (tmp_path / name).write_text(text)
 
-    def fails(figure, path):
+    def fails(figure, path, words):
         raise KeyboardInterrupt
 
     monkeypatch.setattr(regenerate, "save", fails)
     with pytest.raises(KeyboardInterrupt):
-        regenerate._make("fig31", tmp_path, ["svg"])
+        regenerate._make("fig31", tmp_path, ["svg"], redraw=True)
     assert {path.name: path.read_text() for path in tmp_path.iterdir()} == old
 
 

@@ -1,6 +1,8 @@
 """The look of every figure, and figures that are nobody's global state."""
 
+import io
 from contextlib import contextmanager
+from html import escape
 from pathlib import Path
 
 import matplotlib.style
@@ -62,7 +64,20 @@ def ticks(axis, values):
     axis.set_ticks([], minor=True)
 
 
-def save(figure, path):
-    """Write ``figure`` to ``path`` as svg, png or pdf, by its ending."""
+def save(figure, path, words=""):
+    """Write ``figure`` to ``path`` as svg, png or pdf, by its ending.
+
+    ``words`` say what it shows, in the first line and in full, to those who do not see it: an SVG has them as its
+    title and its description.
+    """
     ending = Path(path).suffix[1:]
-    figure.savefig(path, format=ending, metadata=_METADATA[ending])
+    if ending != "svg" or not words:
+        figure.savefig(path, format=ending, metadata=_METADATA[ending])
+        return
+    text = io.StringIO()
+    figure.savefig(text, format=ending, metadata=_METADATA[ending])
+    title, description = (escape(part) for part in (words.strip().splitlines()[0], " ".join(words.split())))
+    words = f'>\n <title id="title">{title}</title>\n <desc id="desc">{description}</desc>\n'
+    head, tag, rest = text.getvalue().partition("<svg ")
+    named = f'{head}{tag}role="img" aria-labelledby="title" aria-describedby="desc" {rest.replace(">", words, 1)}'
+    Path(path).write_text(named, encoding="utf-8", newline="\n")
