@@ -3,7 +3,8 @@
 Each derivative is a symbol of its own (u, u_x, v_xx ...), so that linearising is differentiating by each of them.
 """
 
-from dataclasses import dataclass
+import re
+from dataclasses import dataclass, field
 
 import sympy as sp
 
@@ -27,6 +28,7 @@ class System:
     unknowns : tuple of str     in the order in which they occur, those with a time derivative first
     parameters : tuple of str   the names that are neither unknowns nor x, y, t
     dim : int                   the number of space variables: 2 if y occurs, or a derivative by y; else 1
+    places : dict               where in the text each of the parameters stands first
     slopes : tuple of dicts     for each equation {(unknown, (n, a, b)): slope}, the slope of F by the unknown's n-th
                                 t-, a-th x- and b-th y-derivative
     """
@@ -36,26 +38,59 @@ class System:
     parameters: tuple
     dim: int
     slopes: tuple
+    places: dict = field(default_factory=dict, compare=False)
 
 
 def read(text, given=()):
     """The :class:`System` of a text. ``given`` are names with values: unknowns only if differentiated by name."""
     equations = parse(text)
-    uses: dict = {}  # (name, its own derivatives, those of the brackets around it): None, in the order of the text
+    uses: dict = {}  # (name, its own derivatives, those of the brackets around it): place, in the order of the text
     for equation in equations:
         for side in equation:
             _collect(side, "", uses)
     unknowns = _unknowns(uses, len(equations), given)
     builder = _Builder(text, unknowns)
     slopes = tuple(_slopes(builder.build(left) - builder.build(right), unknowns) for left, right in equations)
-    names = dict.fromkeys(base for base, _, _ in uses if base not in unknowns and base not in VARIABLES)
+    names: dict = {}
+    for (base, _, _), place in uses.items():
+        if base not in unknowns and base not in VARIABLES:
+            names.setdefault(base, place)
     dim = 2 if any(base == "y" or "y" in own + around for base, own, around in uses) else 1
-    return System(text, unknowns, tuple(names), dim, slopes)
+    return System(text, unknowns, tuple(names), dim, slopes, names)
+
+
+def dropped(system, values):
+    """The names without a value of which the linearised equations keep nothing, as of a forcing; but see the error.
+
+    Raises
+    ------
+    PDEError    for a name without a value that looks like a derivative spelt otherwise
+    """
+    for name, place in system.places.items():
+        if name not in values and (intended := _intended(name, system)):
+            problem = f"{name} was not understood: {intended}; if it is a parameter, give {name}=..."
+            raise PDEError(problem, system.text, place)
+    kept = {symbol.name for slopes in system.slopes for slope in slopes.values() for symbol in slope.free_symbols}
+    return [name for name in system.parameters if name not in values and name not in kept]
+
+
+def _intended(name, system):
+    """What a name was probably meant to be, in words; "" for one that is like no derivative."""
+    stem, _, subscript = name.rpartition("_")
+    for u in sorted(system.unknowns, key=len, reverse=True):
+        rest = name.removeprefix(u)
+        if rest != name and re.fullmatch("[xyt]+", rest):
+            return f"the derivative of {u} is written {u}_{rest}"
+        if stem == u and re.fullmatch(r"(([^\W\d_])\2*|([^\W\d_]\d+)+|[XYZT]+)", subscript):
+            return f"derivatives of {u} are written with the letters x, y and t, as in {u}_xx"
+        if re.search(rf"(?:^|_)(lap|laplacian|grad|div)_?{u}$|^d\d?{u}_?d[xyt]\d?$|^D\d?_?{u}$", name):
+            return f"derivatives of {u} are written {u}_xx, {u}_xy, {u}_t"
+    return ""
 
 
 def _collect(node, around, uses):
     if node.kind == "name" and node.value not in CONSTANTS:
-        uses[*split_name(node.value), around] = None
+        uses.setdefault((*split_name(node.value), around), node.place)
     for operand in node.operands:
         _collect(operand, around + (node.value if node.kind == "derivative" else ""), uses)
 

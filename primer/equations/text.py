@@ -15,6 +15,7 @@ differentiates: u_t, v_xx, u_xyt; so does one after a bracket, the "derivatives"
 """
 
 import re
+import unicodedata
 from dataclasses import dataclass
 
 FUNCTIONS = ("sin", "cos", "tan", "exp", "log", "sqrt", "sinh", "cosh", "tanh", "abs")
@@ -28,7 +29,7 @@ _TOKEN = re.compile(
   | (?P<operator>\*\*|[-+*/^=();\n]))""",
     re.VERBOSE,
 )
-_SPOKEN = str.maketrans({"−": "-", "·": "*", "×": "*"})  # noqa: RUF001
+_SPOKEN = str.maketrans({"−": "-", "·": "*", "×": "*"})
 
 
 class PDEError(ValueError):
@@ -76,6 +77,11 @@ def parse(text):
     return _Parser(text, list(_tokens(text.translate(_SPOKEN)))).equations()
 
 
+def canonical(name):
+    """The one form of a name that has several: in a keyword Python, too, takes the micro sign for the Greek mu."""
+    return unicodedata.normalize("NFKC", name)
+
+
 def split_name(name):
     """("v", "xx") for "v_xx"; ("eps", "") for a name without a subscript of the letters x, y, t."""
     base, _, subscript = name.rpartition("_")
@@ -103,6 +109,8 @@ def _tokens(text):
             raise PDEError(f"unexpected character {value[odd]!r}", text, match.start("name") + odd)
         if kind == "name" and ("__" in value or value.endswith("_")):
             raise PDEError("a name with two underscores together, or with one at its end", text, match.start("name"))
+        if kind == "name":
+            value = canonical(value)
         if kind == "name" and len(value) > NAME:
             raise PDEError(f"a name longer than the {NAME} characters allowed", text, match.start("name"))
         start, place, count = match.start(kind), match.end(), count + 1
