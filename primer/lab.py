@@ -24,8 +24,8 @@ def add_command(commands):
     parser = commands.add_parser(
         "lab",
         help="open the course in JupyterLab, on a copy of the notebooks",
-        description="Copy the notebooks into FOLDER and open JupyterLab there, on the notebook you worked on last. What "
-        "is already in FOLDER is never overwritten: come back to your own work with the same command.",
+        description="Copy the notebooks into FOLDER and open JupyterLab there, on the notebook you worked on last. "
+        "What is already in FOLDER is never overwritten: come back to your own work with the same command.",
         epilog="example: primer lab my-course --no-browser --port 9000",
         allow_abbrev=False,
     )
@@ -33,7 +33,8 @@ def add_command(commands):
     parser.add_argument("--copy-only", action="store_true", help="copy, and do not open JupyterLab")
     parser.add_argument("--without-solutions", action="store_true", help="leave out the worked solutions")
     parser.add_argument("--json", action="store_true", help="with --copy-only: print one JSON object")
-    parser.add_argument("options", nargs=argparse.REMAINDER, metavar="OPTION", help="options of JupyterLab")
+    rest = parser.add_argument("options", nargs=argparse.REMAINDER, metavar="OPTION", help="options of JupyterLab")
+    rest.required = False  # some versions of Python name it among what is missing
     parser.set_defaults(command=_run)
 
 
