@@ -9,12 +9,12 @@ from dataclasses import dataclass, field
 import sympy as sp
 
 from primer.equations.text import PDEError, parse, split_name
+from primer.equations.unknowns import VARIABLES, unknowns, uses
 
 ORDER = 12  # the highest derivative
 OPERATIONS = 400  # the longest expression that the derivative of a bracket may grow to: at 1000 sympy can take minutes
 BITS = 4000  # the largest constant, in bits
 POWER = 1000  # the largest exponent
-VARIABLES = ("x", "y", "t")
 CONSTANTS = {"i": sp.I, "pi": sp.pi}
 
 
@@ -44,19 +44,16 @@ class System:
 def read(text, given=()):
     """The :class:`System` of a text. ``given`` are names with values: unknowns only if differentiated by name."""
     equations = parse(text)
-    uses: dict = {}  # (name, its own derivatives, those of the brackets around it): place, in the order of the text
-    for equation in equations:
-        for side in equation:
-            _collect(side, "", uses)
-    unknowns = _unknowns(uses, len(equations), given)
-    builder = _Builder(text, unknowns)
-    slopes = tuple(_slopes(builder.build(left) - builder.build(right), unknowns) for left, right in equations)
+    used = uses(equations, CONSTANTS)
+    found = unknowns(used, len(equations), given)
+    builder = _Builder(text, found)
+    slopes = tuple(_slopes(builder.build(left) - builder.build(right), found) for left, right in equations)
     names: dict = {}
-    for (base, _, _), place in uses.items():
-        if base not in unknowns and base not in VARIABLES:
+    for (base, _, _), place in used.items():
+        if base not in found and base not in VARIABLES:
             names.setdefault(base, place)
-    dim = 2 if any(base == "y" or "y" in own + around for base, own, around in uses) else 1
-    return System(text, unknowns, tuple(names), dim, slopes, names)
+    dim = 2 if any(base == "y" or "y" in own + around for base, own, around in used) else 1
+    return System(text, found, tuple(names), dim, slopes, names)
 
 
 def dropped(system, values):
@@ -86,38 +83,6 @@ def _intended(name, system):
         if re.search(rf"(?:^|_)(lap|laplacian|grad|div)_?{u}$|^d\d?{u}_?d[xyt]\d?$|^D\d?_?{u}$", name):
             return f"derivatives of {u} are written {u}_xx, {u}_xy, {u}_t"
     return ""
-
-
-def _collect(node, around, uses):
-    if node.kind == "name" and node.value not in CONSTANTS:
-        uses.setdefault((*split_name(node.value), around), node.place)
-    for operand in node.operands:
-        _collect(operand, around + (node.value if node.kind == "derivative" else ""), uses)
-
-
-def _unknowns(uses, number, given):
-    """The names differentiated; and, where those are too few, names in differentiated brackets or in constraints."""
-    order = [name for name in dict.fromkeys(base for base, _, _ in uses) if name not in VARIABLES]
-    evolved = {base for base, own, around in uses if "t" in own + around}
-    order.sort(key=lambda name: name not in evolved)
-    direct = {base for base, own, _ in uses if own}
-    wider: tuple[set, ...] = (
-        set(),
-        {base for base, _, around in uses if "t" in around},
-        {base for base, _, around in uses if around},
-        {base for base, _, _ in uses},
-    )
-    for others in wider:
-        unknowns = tuple(name for name in order if name in direct or (name in others and name not in given))
-        if len(unknowns) == number:
-            return unknowns
-    unknowns = tuple(name for name in order if name in direct)
-    if not unknowns:
-        raise PDEError("nothing is differentiated: derivatives are written u_t, v_xx, (u*v)_x")
-    raise PDEError(
-        f"{number} equation{'s' * (number > 1)} for {len(unknowns)} unknown{'s' * (len(unknowns) > 1)} "
-        f"({', '.join(unknowns)}): there must be as many of one as of the other"
-    )
 
 
 def _slopes(F, unknowns):
