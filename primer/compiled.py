@@ -18,15 +18,31 @@ _ONE_AT_A_TIME = Lock()  # compilers share what they know of the processor
 
 @cache
 def able():
-    """Whether machine code can be made here; where it cannot, that is said once."""
+    """Whether machine code can be made here; where it cannot, that is said once.
+
+    An llvmlite that does not fit its system may fail with any error: whatever it is, NumPy gives the same results.
+    """
     try:
         _compiler()
-    except (ImportError, OSError, RuntimeError, AttributeError) as missing:
-        warnings.warn(
-            f"llvmlite is not here ({missing}): results are the same, but slower", RuntimeWarning, stacklevel=5
-        )
+    except Exception as problem:
+        said = f"llvmlite is not here ({_sentence(problem)}): results are the same, but slower"
+        warnings.warn(said, RuntimeWarning, stacklevel=_outside())
         return False
     return True
+
+
+def _outside():
+    """How far up whoever called the package is."""
+    level, frame = 1, sys._getframe(1)
+    while frame.f_back and frame.f_globals.get("__name__", "").startswith("primer."):
+        level, frame = level + 1, frame.f_back
+    return level
+
+
+def _sentence(problem):
+    words = " ".join(str(problem).split())
+    words = words if isinstance(problem, ImportError) and words else f"{type(problem).__name__}: {words}"
+    return words if len(words) <= 160 else words[:157] + "..."
 
 
 def started():

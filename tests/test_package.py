@@ -25,6 +25,7 @@ FLOORS = [
     "claims",
     "arithmetic",
     "compiled",
+    "terminal",
     "equations",
     "problems",
     "schemes",

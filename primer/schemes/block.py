@@ -134,8 +134,8 @@ class Block:
             self.book[BOOK[name][0]] = value
         self.code, self.loop = code, loop.function("march", ctypes.c_void_p)
 
-    def march(self):
-        """March to the end, looking up now and then; :meth:`runs` has the outcome."""
+    def march(self, tell=lambda step: None):
+        """March to the end, looking up now and then to ``tell`` the step; :meth:`runs` has the outcome."""
         asked = self.asked
         with np.errstate(all="ignore"):
             while self.clock[2].min() == 0 and self.clock[0].max() < asked.steps and not self.halted:
@@ -143,6 +143,7 @@ class Block:
                 self.book[BOOK["until"][0]] = until
                 self.loop(address(self.book))
                 self.numbers.raise_what_was_raised()
+                tell(self.clock[0].max())
 
     def runs(self, interrupted=False):
         """Yield the finished runs of the members."""

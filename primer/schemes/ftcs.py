@@ -10,6 +10,7 @@ from primer.compiled import able, started
 from primer.schemes.block import Block, compilable, tally
 from primer.schemes.grid import CENTRAL
 from primer.schemes.marching import slope_of
+from primer.schemes.progress import step_bar
 from primer.schemes.record import plan
 from primer.schemes.run import Run, Seed
 from primer.types import DTypeLike, Problem
@@ -17,6 +18,7 @@ from primer.types import DTypeLike, Problem
 # Steps of one text from which on it is compiled: in NumPy each takes some 30 microseconds, while compiling takes 0.05 s
 # and loading the compiler before that another 0.1 s.
 _SOON, _LATER = 1500, 4000
+_TELL = 256  # steps between two looks at the clock
 
 
 def ftcs(
@@ -30,6 +32,7 @@ def ftcs(
     blow_up_at: float = 1e3,
     dtype: DTypeLike = np.float64,
     digits: int | None = None,
+    progress: bool = True,
 ) -> Run:
     """March ``problem`` by the paper's central-space forward-time scheme (section A2.2.2) on n periodic points.
 
@@ -52,6 +55,7 @@ def ftcs(
                          the only perturbation
     blow_up_at : float   the run stops when Dist exceeds this or is no longer a number
     dtype, digits        float32, float64, longdouble, or a number of decimal digits (slow: arbitrary precision)
+    progress             whether to show a progress bar for a run of more than two seconds, on a terminal
 
     Returns
     -------
@@ -68,10 +72,11 @@ def ftcs(
     """
     asked = plan(n, dt, t_end, record_every, snapshots, seed, blow_up_at, dtype, digits)
     march = _compiled if _compiles(problem, asked) else _interpreted
-    return march(asked, problem)
+    with step_bar(asked.steps, progress) as tell:
+        return march(asked, problem, tell)
 
 
-def _interpreted(asked, problem):
+def _interpreted(asked, problem, tell):
     """The time loop in NumPy, for any problem and any numbers."""
     h, x, state, log = asked.start(problem)
     slope, dt, interrupted = slope_of(problem, x, lambda f, m: CENTRAL[m](f, h)), asked.numbers.number(asked.dt), False
@@ -81,6 +86,8 @@ def _interpreted(asked, problem):
             while log.running:
                 state = stepped(state, dt, slope(state, asked.numbers.number(int(log.clock[0])) * dt))
                 log.watch(log.clock[0] + 1, state)
+                if log.clock[0] % _TELL == 0:
+                    tell(log.clock[0])
     except KeyboardInterrupt:
         interrupted = True
     return log.run(problem, state, interrupted)
@@ -95,11 +102,11 @@ def stepped(state, dt, slopes):
     return new
 
 
-def _compiled(asked, problem):
+def _compiled(asked, problem, tell):
     """The same time loop, to the bit, in machine code: for a problem made from a text, in float32 or float64."""
     block, interrupted = Block(asked, [problem]), False
     try:
-        block.march()
+        block.march(tell)
     except KeyboardInterrupt:
         interrupted = True
     (run,) = block.runs(interrupted)
