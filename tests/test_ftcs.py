@@ -16,9 +16,8 @@ from transcription import dist, march
 
 import primer
 import primer.schemes.ftcs as scheme
-from primer import BackwardHeat, Run, Seed, Stop, Toy, ftcs
+from primer import PDE, BackwardHeat, Run, Seed, Stop, Toy, ftcs, march_lines
 from primer.compiled import _compiler, able
-from primer.problems.pde import PDE
 from primer.schemes import record
 from primer.schemes.block import tally
 from primer.schemes.discrete import dist_floor

@@ -51,6 +51,7 @@ def ftcs_ensemble(
 
     The scheme of section A2.2.2.
 
+    >>> from primer import Toy
     >>> runs = ftcs_ensemble([Toy(0.5), Toy(1.5)], n=30, t_end=5.0)
     >>> [run.t_first_negative is not None for run in runs]
     [True, False]

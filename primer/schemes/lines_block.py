@@ -47,7 +47,7 @@ def _padded(n):
 
 @lru_cache(maxsize=64)
 def _table(time):
-    """(starts, places, weights, nodes) of a Runge-Kutta step: what of its table is not 0, the weights b as a last line."""
+    """(starts, places, weights, nodes) of a Runge-Kutta step: what is not 0 in its table, with b as a last line."""
     kept = [[(j, weight) for j, weight in enumerate(line) if weight] for line in ((), *time.rows, time.b)]
     starts = np.cumsum([0, *map(len, kept)]).astype(np.int64)
     places = np.array([j for line in kept for j, _ in line], np.int64)

@@ -55,6 +55,7 @@ class Lanes:
 
     @property
     def false(self):
+        """Not true, in all places."""
         return "false" if self.width == 1 else "zeroinitializer"
 
     def address(self, row, i, offset=0):
@@ -89,9 +90,11 @@ class Lanes:
         return self.write.value(f"call {self.name} @llvm.{name}.{self.suffix}({given})")
 
     def relation(self, relation, a, b):
+        """Where a is in a relation of LLVM's to b."""
         return self.write.value(f"fcmp {relation} {self.name} {a}, {b}")
 
     def either(self, a, b):
+        """Where one or the other is true."""
         return self.write.value(f"or {self.truth} {a}, {b}")
 
     def choose(self, relation, a, b):

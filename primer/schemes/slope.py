@@ -45,9 +45,11 @@ class Slope:
         return self.write.load(kind, self.write.at("i64", "%book", entry))
 
     def times(self, a, b):
+        """a b, of whole numbers."""
         return self.write.value(f"mul i64 {a}, {b}")
 
     def plus(self, a, b):
+        """a + b, of whole numbers."""
         return self.write.value(f"add i64 {a}, {b}")
 
     def length(self, n, reach):
@@ -102,7 +104,7 @@ class Slope:
     # The right-hand side.
 
     def prepare(self, n, first=0):
-        """Write what does not change in time, for rows of n points; the first numbers of ``numbers`` are someone else's."""
+        """Write what does not change in time, for rows of n points; the ``first`` numbers are somebody else's."""
         form, write = self.form, self.write
         self.n, self.call = n, self.book("call")
         self.scratch = self.lay(self.book("scratch"), n, self.plan.rows, self.reach)
@@ -131,8 +133,8 @@ class Slope:
     def evaluate(self, fields, time, finish, carried=()):
         """Write one evaluation on rows (or pairs of them) of the fields, whose ghost cells are filled here.
 
-        ``finish(place, slopes, seen, then)`` is written into the last loop, over all points; ``carried`` are values that
-        this loop hands on, as in ``Writer.loop``, and what they end as is returned.
+        ``finish(place, slopes, seen, then)`` is written into the last loop, over all points; ``carried`` are values
+        that this loop hands on, as in ``Writer.loop``, and what they end as is returned.
         """
         write, lanes, calls = self.write, self.lanes, self.plan.calls
         if self.form.clock:

@@ -154,10 +154,9 @@ class _Watch:
         """After a look: what is no number has not been seen by the extremes."""
         write, looks, clock, slots = self.write, self.book("looks"), self.book("clock"), self.book("slots")
         with write.loop("0", slots) as (slot, _, _):
-            with write.when(self.alive(clock, slot if self.members > 1 else "0")):
-                odd = self.number(looks, self.plus(self.times(slots, 2), slot))
-                with write.when(self.one.relation("one", odd, "0.0")):
-                    write.store("i64", "0", quiet)
+            odd = self.one.relation("one", self.number(looks, self.plus(self.times(slots, 2), slot)), "0.0")
+            with write.when(self.both(odd, self.alive(clock, slot if self.members > 1 else "0"))):
+                write.store("i64", "0", quiet)
 
     def march(self):
         """The loop."""
