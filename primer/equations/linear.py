@@ -29,6 +29,7 @@ class System:
     dim : int                   the number of space variables: 2 if y occurs, or a derivative by y; else 1
     slopes : tuple of dicts     for each equation {(unknown, (n, a, b)): slope}, the slope of F by the unknown's n-th
                                 t-, a-th x- and b-th y-derivative
+    sides : tuple               the F themselves
     """
 
     text: str
@@ -36,6 +37,7 @@ class System:
     parameters: tuple
     dim: int
     slopes: tuple
+    sides: tuple = ()
 
 
 def read(text, given=()):
@@ -47,10 +49,11 @@ def read(text, given=()):
             _collect(side, "", uses)
     unknowns = _unknowns(uses, len(equations), given)
     builder = _Builder(text, unknowns)
-    slopes = tuple(_slopes(builder.build(left) - builder.build(right), unknowns) for left, right in equations)
+    sides = tuple(builder.build(left) - builder.build(right) for left, right in equations)
+    slopes = tuple(_slopes(F, unknowns) for F in sides)
     names = dict.fromkeys(base for base, _, _ in uses if base not in unknowns and base not in VARIABLES)
     dim = 2 if any(base == "y" or "y" in own + around for base, own, around in uses) else 1
-    return System(text, unknowns, tuple(names), dim, slopes)
+    return System(text, unknowns, tuple(names), dim, slopes, sides)
 
 
 def _collect(node, around, uses):
