@@ -8,7 +8,8 @@ import re
 
 import pytest
 
-from primer.equations.text import FUNCTIONS, PDEError, _marked, _tokens, parse, split_name
+from primer.equations.error import _marked
+from primer.equations.text import FUNCTIONS, PDEError, _tokens, parse, split_name
 from primer.equations.text import Node as N
 
 

@@ -13,6 +13,7 @@ import sympy as sp
 
 from primer import BackwardHeat, Toy, growth_rates, linearise, verdict
 from primer.analysis.symbolic import _tidied, pencil, symbol
+from primer.analysis.verdict import Kind
 from primer.equations.linear import read
 from primer.equations.text import PDEError, parse
 from primer.schemes.grid import Grid
@@ -79,7 +80,7 @@ def test_conservation_form_is_the_same_system():
         ("u_t = 25e-1*u", sp.Rational(5, 2)),
         ("(2*u\n)_t = (u_x +\n u)_x", (-(xi**2) + sp.I * xi) / 2),
         ("ε_t = ε_x", sp.I * xi),
-        ("phi_1_t = −phi_1_xx", xi**2),  # noqa: RUF001
+        ("phi_1_t = −phi_1_xx", xi**2),
     ],
 )
 def test_grammar(text, symbol):
@@ -148,11 +149,51 @@ def test_what_is_not_given_is_listed_at_once():
     with pytest.raises(PDEError, match="v_xx"):
         verdict(TOY, at={"u": 1}, eps=0.01)
     assert verdict(TOY, at={"u": 1}, eps=0.01, order="maximal").kind == "well-posed"  # v_xx is not asked for
-    assert verdict("u_t = u_xx + f + x^2*sin(t)").kind == "well-posed"  # nor are f, x and t
+    assert verdict("u_t = u_xx + f + x^2*sin(t)", f=0).kind == "well-posed"  # nor are x and t
     with pytest.raises(PDEError, match="base-state values x"):
         growth_rates("u_t = x*u_x", 1.0)
     assert growth_rates("u_t = x*u_x", 1.0, at={"x": 3}) == pytest.approx(3j)
     assert growth_rates("u_t = a*u", 1.0, at={"a": 3}) == 3  # a parameter among the base values
+
+
+@pytest.mark.parametrize(
+    ("text", "name"),
+    [
+        ("u_t = -uxx", "uxx"), ("u_t = -u_rr", "u_rr"), ("u_t = -u_x1x1", "u_x1x1"), ("u_t = -u_XX", "u_XX"),
+        ("u_t = -lap_u", "lap_u"), ("u_t = -d2udx2", "d2udx2"), ("u_t = u_хх", "u_хх"),
+        ("u_t = u_xx - uyy", "uyy"), ("u_t = u*u_r - u", "u_r"), ("u_t = u_xx - du_dx*u", "du_dx"),
+        ("u_t = v - phi_1xx*u; phi_1_t = v_x; v_t = u", "phi_1xx"),
+    ],
+)  # fmt: skip
+def test_a_derivative_spelt_otherwise_is_not_a_parameter(text, name):
+    for ask in (verdict, linearise, lambda text: growth_rates(text, [1.0, 2.0])):
+        with pytest.raises(PDEError, match=f"^{name} was not understood.*give {name}=...\n") as caught:
+            ask(text)
+        *_, line, caret = str(caught.value).split("\n")
+        assert caret.index("^") - 4 == text.index(name)
+        assert line[4:] == text
+    assert verdict(text, at={name: 2, "u": 1, "u_x": 0}).kind in Kind  # a parameter, if it is said to be one
+
+
+def test_a_name_without_a_value_is_never_a_silent_zero():
+    for text in ("u_t = u_xx + f", "u_t = u_xx - f*x", "u_t = u_xx + (f)_x"):
+        for ask in (verdict, pencil):
+            with pytest.raises(PDEError, match=r"^not given: parameters f=\.\.\.$"):
+                ask(text)
+        with pytest.raises(PDEError, match=r"^f has no value, and nothing is left of it .*: give f=\.\.\.\n"):
+            linearise(text)
+        assert linearise(text, f=3) == sp.Matrix([[-(xi**2)]])
+    assert linearise("u_t = u*u_max*u_0*u_xi") == sp.Matrix([[sp.prod(sp.symbols("u_max u_0 u_xi"))]])
+
+
+@pytest.mark.parametrize(("inside", "outside"), [("ϵ", "ε"), ("µ", "μ"), ("Ω", "Ω"), ("ｋ", "k")])
+def test_compatibility_letters_are_the_letters_they_stand_for(inside, outside):
+    """Python takes them so in keywords: there the two are one name."""
+    for name in (inside, outside):
+        for text in (f"u_t = {inside}*u_xx", f"u_t = {outside}*u_xx"):
+            assert growth_rates(text, 2.0, **{name: 3}) == pytest.approx(-12)
+            assert growth_rates(text, 2.0, at={name: 3}) == pytest.approx(-12)
+    assert verdict(f"{inside}_t = {inside}*{outside}_xx", at={inside: -1, f"{outside}_xx": 0}).kind == "ill-posed"
 
 
 @pytest.mark.parametrize("value", [2, 2.0, np.float32(2), np.int64(2), Fraction(2), sp.Integer(2), 2 + 0j, sp.sqrt(4)])

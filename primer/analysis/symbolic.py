@@ -13,7 +13,7 @@ from primer.analysis.pencil import Pencil
 from primer.analysis.roots import DIGITS, ZERO
 from primer.analysis.symbol import Symbol
 from primer.checks import shown
-from primer.equations.linear import read
+from primer.equations.linear import dropped, read
 from primer.equations.text import PDEError, split_name
 from primer.equations.values import checked, evaluated, substituted
 from primer.types import ArrayLike, Multiplier
@@ -36,7 +36,7 @@ def symbol(text: str, *, at: dict[str, Any] | None = None, order: str = "full", 
     PDEError    (a ValueError) for text that cannot be used, or for values that matter and are not given, all of them
     """
     system, values = _read(text, at, order, parameters)
-    missing, entries = {}, []
+    missing, entries = dict.fromkeys(dropped(system, values)), []
     with mp.workdps(DIGITS):
         for slopes in system.slopes:
             row: dict[str, dict] = {name: {} for name in system.unknowns}
@@ -112,8 +112,8 @@ def pencil(
 def linearise(text: str, *, at: dict[str, Any] | None = None, order: str = "full", **parameters: Any) -> sp.Matrix:
     """The symbol of a PDE as a sympy matrix, for eq. (toy-mat).
 
-    Names without a value stay symbols; so do the wavenumber xi, or xi_1 and xi_2 in two space variables. Other
-    arguments are those of :func:`symbol`.
+    Names without a value stay symbols, though one that nothing would be left of, as of a forcing, must have a value;
+    so do the wavenumber xi, or xi_1 and xi_2 in two space variables. Other arguments are those of :func:`symbol`.
 
     Returns
     -------
@@ -126,6 +126,9 @@ def linearise(text: str, *, at: dict[str, Any] | None = None, order: str = "full
     Matrix([[-xi**2 + 2*I*xi]])
     """
     system, values = _read(text, at, order, parameters)
+    for name in dropped(system, values):
+        problem = f"{name} has no value, and nothing is left of it in the linearised equations: give {name}=..."
+        raise PDEError(problem, system.text, system.places[name])
     lam, *xi = sp.symbols("lambda xi") if system.dim == 1 else sp.symbols("lambda xi_1 xi_2")
     size = len(system.unknowns)
     parts: dict = {}

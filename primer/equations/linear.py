@@ -3,17 +3,18 @@
 Each derivative is a symbol of its own (u, u_x, v_xx ...), so that linearising is differentiating by each of them.
 """
 
-from dataclasses import dataclass
+import re
+from dataclasses import dataclass, field
 
 import sympy as sp
 
 from primer.equations.text import PDEError, parse, split_name
+from primer.equations.unknowns import VARIABLES, unknowns, uses
 
 ORDER = 12  # the highest derivative
 OPERATIONS = 400  # the longest expression that the derivative of a bracket may grow to: at 1000 sympy can take minutes
 BITS = 4000  # the largest constant, in bits
 POWER = 1000  # the largest exponent
-VARIABLES = ("x", "y", "t")
 CONSTANTS = {"i": sp.I, "pi": sp.pi}
 
 
@@ -29,6 +30,7 @@ class System:
     dim : int                   the number of space variables: 2 if y occurs, or a derivative by y; else 1
     slopes : tuple of dicts     for each equation {(unknown, (n, a, b)): slope}, the slope of F by the unknown's n-th
                                 t-, a-th x- and b-th y-derivative
+    places : dict               where in the text each of the parameters stands first
     sides : tuple               the F themselves
     """
 
@@ -37,55 +39,53 @@ class System:
     parameters: tuple
     dim: int
     slopes: tuple
+    places: dict = field(default_factory=dict, compare=False)
     sides: tuple = ()
 
 
 def read(text, given=()):
     """The :class:`System` of a text. ``given`` are names with values: unknowns only if differentiated by name."""
     equations = parse(text)
-    uses: dict = {}  # (name, its own derivatives, those of the brackets around it): None, in the order of the text
-    for equation in equations:
-        for side in equation:
-            _collect(side, "", uses)
-    unknowns = _unknowns(uses, len(equations), given)
-    builder = _Builder(text, unknowns)
+    used = uses(equations, CONSTANTS)
+    found = unknowns(used, len(equations), given)
+    builder = _Builder(text, found)
     sides = tuple(builder.build(left) - builder.build(right) for left, right in equations)
-    slopes = tuple(_slopes(F, unknowns) for F in sides)
-    names = dict.fromkeys(base for base, _, _ in uses if base not in unknowns and base not in VARIABLES)
-    dim = 2 if any(base == "y" or "y" in own + around for base, own, around in uses) else 1
-    return System(text, unknowns, tuple(names), dim, slopes, sides)
+    slopes = tuple(_slopes(F, found) for F in sides)
+    names: dict = {}
+    for (base, _, _), place in used.items():
+        if base not in found and base not in VARIABLES:
+            names.setdefault(base, place)
+    dim = 2 if any(base == "y" or "y" in own + around for base, own, around in used) else 1
+    return System(text, found, tuple(names), dim, slopes, names, sides)
 
 
-def _collect(node, around, uses):
-    if node.kind == "name" and node.value not in CONSTANTS:
-        uses[*split_name(node.value), around] = None
-    for operand in node.operands:
-        _collect(operand, around + (node.value if node.kind == "derivative" else ""), uses)
+def dropped(system, values):
+    """The names without a value of which the linearised equations keep nothing, as of a forcing; but see the error.
+
+    Raises
+    ------
+    PDEError    for a name without a value that looks like a derivative spelt otherwise
+    """
+    for name, place in system.places.items():
+        if name not in values and (intended := _intended(name, system)):
+            problem = f"{name} was not understood: {intended}; if it is a parameter, give {name}=..."
+            raise PDEError(problem, system.text, place)
+    kept = {symbol.name for slopes in system.slopes for slope in slopes.values() for symbol in slope.free_symbols}
+    return [name for name in system.parameters if name not in values and name not in kept]
 
 
-def _unknowns(uses, number, given):
-    """The names differentiated; and, where those are too few, names in differentiated brackets or in constraints."""
-    order = [name for name in dict.fromkeys(base for base, _, _ in uses) if name not in VARIABLES]
-    evolved = {base for base, own, around in uses if "t" in own + around}
-    order.sort(key=lambda name: name not in evolved)
-    direct = {base for base, own, _ in uses if own}
-    wider: tuple[set, ...] = (
-        set(),
-        {base for base, _, around in uses if "t" in around},
-        {base for base, _, around in uses if around},
-        {base for base, _, _ in uses},
-    )
-    for others in wider:
-        unknowns = tuple(name for name in order if name in direct or (name in others and name not in given))
-        if len(unknowns) == number:
-            return unknowns
-    unknowns = tuple(name for name in order if name in direct)
-    if not unknowns:
-        raise PDEError("nothing is differentiated: derivatives are written u_t, v_xx, (u*v)_x")
-    raise PDEError(
-        f"{number} equation{'s' * (number > 1)} for {len(unknowns)} unknown{'s' * (len(unknowns) > 1)} "
-        f"({', '.join(unknowns)}): there must be as many of one as of the other"
-    )
+def _intended(name, system):
+    """What a name was probably meant to be, in words; "" for one that is like no derivative."""
+    stem, _, subscript = name.rpartition("_")
+    for u in sorted(system.unknowns, key=len, reverse=True):
+        rest = name.removeprefix(u)
+        if rest != name and re.fullmatch("[xyt]+", rest):
+            return f"the derivative of {u} is written {u}_{rest}"
+        if stem == u and re.fullmatch(r"(([^\W\d_])\2*|([^\W\d_]\d+)+|[XYZT]+)", subscript):
+            return f"derivatives of {u} are written with the letters x, y and t, as in {u}_xx"
+        if re.search(rf"(?:^|_)(lap|laplacian|grad|div)_?{u}$|^d\d?{u}_?d[xyt]\d?$|^D\d?_?{u}$", name):
+            return f"derivatives of {u} are written {u}_xx, {u}_xy, {u}_t"
+    return ""
 
 
 def _slopes(F, unknowns):

@@ -15,7 +15,10 @@ differentiates: u_t, v_xx, u_xyt; so does one after a bracket, the "derivatives"
 """
 
 import re
+import unicodedata
 from dataclasses import dataclass
+
+from primer.equations.error import PDEError
 
 FUNCTIONS = ("sin", "cos", "tan", "exp", "log", "sqrt", "sinh", "cosh", "tanh", "abs")
 LENGTH, TOKENS, DEPTH, EQUATIONS, NAME = 4000, 600, 80, 6, 40  # far beyond what a person would write by hand
@@ -28,24 +31,7 @@ _TOKEN = re.compile(
   | (?P<operator>\*\*|[-+*/^=();\n]))""",
     re.VERBOSE,
 )
-_SPOKEN = str.maketrans({"−": "-", "·": "*", "×": "*"})  # noqa: RUF001
-
-
-class PDEError(ValueError):
-    """The text of an equation, or what goes with it, cannot be used; the message shows the text and the place.
-
-    Section A2.1 needs equations that determine their unknowns, in the notation of ``primer verdict``.
-
-    >>> from primer import verdict
-    >>> try:
-    ...     verdict("u_t = foo(u)")
-    ... except PDEError as error:
-    ...     print("foo" in str(error))
-    True
-    """
-
-    def __init__(self, problem: str, text: str = "", place: int | None = None) -> None:
-        super().__init__(problem if place is None else f"{problem}\n{_marked(text, place)}")
+_SPOKEN = str.maketrans({"−": "-", "·": "*", "×": "*"})
 
 
 @dataclass(frozen=True)
@@ -65,30 +51,37 @@ class Node:
 def parse(text):
     """The equations of ``text`` as a list of pairs (left, right) of nodes.
 
-    Raises
-    ------
-    PDEError    with the text and a caret under the place where it goes wrong
+    Raises PDEError, with the text and a caret under the place where it goes wrong.
     """
+    return _parser("the equations", "u_t = u_xx", text).equations()
+
+
+def parse_expression(text):
+    """The node of an expression such as "a - cos(x)", which has no "="; otherwise as :func:`parse`."""
+    parser = _parser("an expression", "a - cos(x)", text)
+    node = parser.sum()
+    if parser.tokens[parser.next][0] != "end":
+        parser.fail("expected an operator, as in 2*u" if parser._is_operand() else "the expression should end here")
+    return node
+
+
+def _parser(what, example, text):
     if not isinstance(text, str):
-        raise TypeError(f"the equations must be a string such as 'u_t = u_xx', got {type(text).__name__}")
+        raise TypeError(f"{what} must be a string such as {example!r}, got {type(text).__name__}")
     if len(text) > LENGTH:
         raise PDEError(f"the text has {len(text)} characters, more than the {LENGTH} allowed")
-    return _Parser(text, list(_tokens(text.translate(_SPOKEN)))).equations()
+    return _Parser(text, list(_tokens(text.translate(_SPOKEN))))
+
+
+def canonical(name):
+    """The one form of a name that has several: in a keyword Python, too, takes the micro sign for the Greek mu."""
+    return unicodedata.normalize("NFKC", name)
 
 
 def split_name(name):
     """("v", "xx") for "v_xx"; ("eps", "") for a name without a subscript of the letters x, y, t."""
     base, _, subscript = name.rpartition("_")
     return (base, subscript) if base and re.fullmatch("[xyt]+", subscript) else (name, "")
-
-
-def _marked(text, place):
-    """The line of the text that holds the place, cut to a window, and a caret under it."""
-    start = text.rfind("\n", 0, place) + 1
-    line, column = text[start:].partition("\n")[0], place - start
-    left = max(0, column - 50)
-    shown = "".join(c if c.isprintable() else " " for c in line[left : left + 80])
-    return f"    {shown}\n    {' ' * (column - left)}^"
 
 
 def _tokens(text):
@@ -103,6 +96,8 @@ def _tokens(text):
             raise PDEError(f"unexpected character {value[odd]!r}", text, match.start("name") + odd)
         if kind == "name" and ("__" in value or value.endswith("_")):
             raise PDEError("a name with two underscores together, or with one at its end", text, match.start("name"))
+        if kind == "name":
+            value = canonical(value)
         if kind == "name" and len(value) > NAME:
             raise PDEError(f"a name longer than the {NAME} characters allowed", text, match.start("name"))
         start, place, count = match.start(kind), match.end(), count + 1

@@ -9,7 +9,7 @@ import numpy as np
 import sympy as sp
 
 from primer.checks import shown
-from primer.equations.text import PDEError, split_name
+from primer.equations.text import PDEError, canonical, split_name
 
 BITS = 100_000  # the largest exact power, in bits: 3^(10^9) would take for ever
 LARGEST = 1e6  # the largest argument of a function: the exponential of this has half a million digits before its point
@@ -22,6 +22,7 @@ def checked(system, at, parameters):
         raise TypeError(f"at must be a dict of base-state values such as {{'u': -0.5}}, got {shown(at)}")
     values = {}
     for name, value in [*at.items(), *parameters.items()]:
+        name = canonical(name) if isinstance(name, str) else name
         base, letters = split_name(name) if isinstance(name, str) else (name, "")
         if base in system.unknowns:
             if name in parameters:
