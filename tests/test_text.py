@@ -183,7 +183,7 @@ def test_a_name_without_a_value_is_never_a_silent_zero():
         with pytest.raises(PDEError, match=r"^f has no value, and nothing is left of it .*: give f=\.\.\.\n"):
             linearise(text)
         assert linearise(text, f=3) == sp.Matrix([[-(xi**2)]])
-    assert linearise("u_t = u*u_max*u_0*u_xi") == sp.Matrix([[sp.prod(sp.symbols("u_max u_0 u_xi"))]])
+    assert linearise("u_t = u*u_max*u_0*u_in") == sp.Matrix([[sp.prod(sp.symbols("u_max u_0 u_in"))]])
 
 
 @pytest.mark.parametrize(("inside", "outside"), [("ϵ", "ε"), ("µ", "μ"), ("Ω", "Ω"), ("ｋ", "k")])
