@@ -28,7 +28,7 @@ _HOME = {
     "Lines": "schemes.lines",
     "MaxGrowth": "analysis.directions",
     "MuI": "granular.friction",
-    "PDEError": "equations.text",
+    "PDEError": "equations.error",
     "PastHorizon": "schemes.reference",
     "Pencil": "analysis.pencil",
     "RK4": "schemes.runge_kutta",

@@ -18,7 +18,7 @@ from .analysis.symbolic import growth_rates as growth_rates
 from .analysis.symbolic import linearise as linearise
 from .analysis.verdict import Verdict as Verdict
 from .analysis.verdict import verdict as verdict
-from .equations.text import PDEError as PDEError
+from .equations.error import PDEError as PDEError
 from .granular.compaction import Compaction as Compaction
 from .granular.criteria import critical_state as critical_state
 from .granular.criteria import neutral_inertial_numbers as neutral_inertial_numbers

@@ -14,9 +14,9 @@ from primer.analysis.pencil import Pencil
 from primer.analysis.roots import DIGITS
 from primer.analysis.symbol import Symbol
 from primer.checks import shown
-from primer.equations.linear import dropped, read
 from primer.equations.error import PDEError, ask
-from primer.equations.tree import split_name
+from primer.equations.linear import read
+from primer.equations.missing import dropped, not_given
 from primer.equations.values import checked, evaluated, substituted
 from primer.types import ArrayLike, Multiplier
 
@@ -66,7 +66,7 @@ def symbol(
                     row[name][power] = coefficient
             entries.append(tuple(row.values()))
     if missing:
-        raise PDEError(_what_is_missing(missing, system))
+        raise PDEError(not_given(missing, system))
     if not any(n for row in entries for entry in row for n, _, _ in entry):
         raise PDEError("no equation contains a time derivative (u_t), so nothing evolves")
     return Symbol(tuple(entries), system.dim)
@@ -88,8 +88,8 @@ def growth_rates(
 
     Parameters
     ----------
-    text, at, order, uniform, space, time, parameters    as for :func:`symbol`; where values are arrays, of shape s0, the
-        answer is of shape s0 + s + (number of finite branches,)
+    text, at, order, uniform, space, time, parameters    as for :func:`symbol`; where values are arrays, of shape s0,
+                        the answer is of shape s0 + s + (number of finite branches,)
     xi : array          of shape s; in two space variables of shape (2,) + s
     multiplier          ``multiplier(xi, m)`` is what the m-th derivative does to e^{i xi x}: left out, (i xi)^m; a
                         grid's ``Grid.multiplier`` gives the growth of the equations on that grid. A mixed derivative is
@@ -153,7 +153,8 @@ def linearise(
     """The symbol of a PDE as a sympy matrix, for eq. (toy-mat).
 
     Names without a value stay symbols, though one that nothing would be left of, as of a forcing, must have a value;
-    so do the wavenumber xi, or xi_1, xi_2 (and xi_3) in more space variables. Other arguments are those of :func:`symbol`.
+    so do the wavenumber xi, or xi_1, xi_2 (and xi_3) in more space variables. Other arguments are those of
+    :func:`symbol`.
 
     Returns
     -------
@@ -224,20 +225,6 @@ def _is_function(value):
 def _is_lower(power, kept):
     """Whether a higher space derivative, of the same order in time, is among those kept."""
     return any(n == power[0] and sum(rest) > sum(power[1:]) for n, *rest in kept)
-
-
-def _what_is_missing(missing, system):
-    parameters = [system.said(name) for name in missing if name in system.parameters]
-    base = [system.said(name) for name in missing if name not in system.parameters]
-    parts = []
-    if base:
-        parts.append(f"base-state values {', '.join(base)} ({ask('base', *base)})")
-    if parameters:
-        parts.append(f"parameters {ask('value', *parameters)}")
-    said = "not given: " + " and ".join(parts)
-    if any(split_name(name)[1] for name in missing if name not in system.parameters):
-        return f"give {ask('uniform')} if the base state is uniform (all its derivatives are 0); {said}"
-    return said
 
 
 def _regular(E):

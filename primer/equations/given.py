@@ -1,8 +1,8 @@
-"""Functions that a reader brings along by keyword, f="u^3 - u" or f=lambda u: u**3 - u: what makes the nodes of f(u)."""
+"""Functions that a reader brings along, f="u^3 - u" or f=lambda u: u**3 - u, as makers of the nodes of f(u)."""
 
+from primer.equations.error import PDEError, ask
 from primer.equations.functions import SIZE, traced
 from primer.equations.grammar import Parser
-from primer.equations.error import PDEError, ask
 from primer.equations.tree import Node, split_name
 
 NESTED = 8  # functions given by functions
@@ -51,8 +51,8 @@ class Given:
         if len(arguments) != 1 or len(own) > 1:
             said = ", ".join(map(self.variables.outside, own))
             parser.fail(
-                f"{name} is given as a text in {said}, and this call does not say what stands for what: write it in the "
-                f"names of the call, {ask('function', name, 'u')} for {name}(u)",
+                f"{name} is given as a text in {said}, and this call does not say what stands for what: write it in "
+                f"the names of the call, {ask('function', name, 'u')} for {name}(u)",
                 place,
             )
         return _put(node, own[0], arguments[0]) if own else node

@@ -14,7 +14,8 @@ A line without a left side and "=" of its own continues the one before. What cou
 says both.
 """
 
-from primer.equations.calculus import Calculus
+from primer.equations import operands
+from primer.equations.cursor import Cursor
 from primer.equations.functions import minus
 from primer.equations.tree import Node
 from primer.equations.vectors import Vector, added, multiplied, squared
@@ -23,7 +24,7 @@ DEPTH, EQUATIONS = 80, 10  # far beyond what a person would write by hand
 _CLOSING = {"(": ")", "[": "]", "{": "}"}
 
 
-class Parser(Calculus):
+class Parser(Cursor):
     """The equations, or one expression, of a list of tokens."""
 
     def equations(self):
@@ -133,12 +134,12 @@ class Parser(Calculus):
     def power(self):
         """A factor without a sign."""
         begin = self.token
-        base = self.primary()
+        base = operands.primary(self)
         if not self.at("^") and self.token.kind != "script":
             return base
         exponential = begin.kind == "name" and begin.value[:2] == ("e", ()) and "e" not in self.variables.plain
         if self.token.kind == "script":
-            place, exponent = self.token.place, self.script()
+            place, exponent = self.token.place, operands.script(self)
             if self.at("^"):
                 self.fail("a power of a power needs a bracket")
         else:

@@ -3,17 +3,15 @@
 Each derivative is a symbol of its own (u, u_x, v_xx ...), so that linearising is differentiating by each of them.
 """
 
-import re
 from dataclasses import dataclass, field
 from functools import lru_cache
 
 import sympy as sp
 
+from primer.equations.error import PDEError
 from primer.equations.text import Source, understand
-from primer.equations.error import PDEError, ask
 from primer.equations.tree import split_name
 from primer.equations.unknowns import VARIABLES, unknowns, uses
-from primer.equations.variables import GREEK
 
 ORDER = 12  # the highest derivative
 OPERATIONS = 400  # the longest expression that the derivative of a bracket may grow to: at 1000 sympy can take minutes
@@ -94,45 +92,6 @@ def _read(text, given, named, space, time, functions):
         if base not in found and base not in VARIABLES:
             names.setdefault(base, place)
     return System(source.text, found, tuple(names), source.dim, slopes, names, source)
-
-
-def dropped(system, values):
-    """The names without a value of which the linearised equations keep nothing, as of a forcing; but see the error.
-
-    Raises
-    ------
-    PDEError    for a name without a value that looks like a derivative spelt otherwise
-    """
-    for name, place in system.places.items():
-        if name not in values and (intended := _intended(name, system)):
-            said = system.said(name)
-            problem = f"{said} was not understood: {intended}; if it is a parameter, give {ask('value', said)}"
-            raise PDEError(problem, system.text, place)
-    kept = {symbol.name for slopes in system.slopes for slope in slopes.values() for symbol in slope.free_symbols}
-    return [name for name in system.parameters if name not in values and name not in kept]
-
-
-def _intended(name, system):
-    """What a name was probably meant to be, in words; "" for one that is like no derivative."""
-    said, variables = system.outside(name), system.source.variables
-    stem, _, subscript = said.rpartition("_")
-    by = f"{', '.join(variables.space)} and {variables.time}"
-    for u in sorted(map(system.outside, system.unknowns), key=len, reverse=True):
-        name_of_u = re.escape(u)
-        rest = said.removeprefix(u)
-        if rest != said and (variables.derivatives(rest) or (not variables.declared and re.fullmatch("[xyzt]+", rest))):
-            return f"the derivative of {u} is written {u}_{rest}"
-        if stem == u and (re.fullmatch(_LIKE, subscript) or subscript in GREEK):
-            other = subscript if subscript in GREEK else re.match(r"[^\W\d_]\d*", subscript)[0]
-            variable = ask("variable", "space" if other not in ("tau", "T") else "time", other)
-            return f"derivatives of {u} are taken by {by}, as in {u}_{variables.space[0] * 2} (or declare {variable})"
-        if re.search(rf"(?:^|_)(lap|laplacian|grad|div)_?{name_of_u}$|^d\d?{name_of_u}_?d\w\d?$|^[dD]\d?[xyz]*_?{name_of_u}$", said):
-            first = variables.space[0]
-            return f"derivatives of {u} are written {u}_{2 * first}, d/d{first}({u}), lap({u})"
-    return ""
-
-
-_LIKE = r"(([^\W\d_])\2*|([^\W\d_]\d+)+|[XYZT]+)"  # subscripts like rr, x1x1, XX
 
 
 def _slopes(F, unknowns, number):

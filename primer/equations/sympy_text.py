@@ -1,6 +1,7 @@
 """Equations of sympy, and lists, as one text: what else may stand where a text of equations does."""
 
 import sys
+from typing import Any
 
 from primer.checks import shown
 from primer.equations.error import PDEError
@@ -16,7 +17,7 @@ def texts(given, space=None, time=None):
     if isinstance(given, str):
         return given, space, time
     parts = list(given) if isinstance(given, (list, tuple)) else [given]
-    sympy = sys.modules.get("sympy")  # whoever has a sympy equation has imported it
+    sympy: Any = sys.modules.get("sympy")  # whoever has a sympy equation has imported it
     symbolic = [part for part in parts if sympy and isinstance(part, (sympy.Basic, sympy.logic.boolalg.Boolean))]
     if not parts or not all(isinstance(part, str) or any(part is each for each in symbolic) for part in parts):
         what = type(given).__name__ if not isinstance(given, (list, tuple)) else shown(given)

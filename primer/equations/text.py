@@ -5,12 +5,12 @@ See :mod:`primer.equations.grammar` for the grammar and ``primer help equations`
 
 from dataclasses import dataclass, replace
 
+from primer.equations.error import PDEError
 from primer.equations.functions import FUNCTIONS
 from primer.equations.given import Given
 from primer.equations.grammar import Parser
 from primer.equations.sympy_text import texts
 from primer.equations.tokens import tokens
-from primer.equations.error import PDEError
 from primer.equations.tree import Node, split_name
 from primer.equations.variables import Variables, canonical, variables
 
@@ -77,7 +77,8 @@ def understand(text, space=None, time=None, given=(), named=(), functions=None):
     Parameters
     ----------
     text                    equations; or a list of texts, sympy equations, or a list of these
-    space, time             what the text calls its variables: "r", "x, z"; by default x, and y and z if they occur, and t
+    space, time             what the text calls its variables: "r", "x, z"; by default x, with y and z if they occur,
+                            and t
     given                   the names of parameters that have a value by keyword
     named                   other names that have a value
     functions : dict        texts or functions of Python by name

@@ -4,7 +4,7 @@ A word takes its subscripts with it: ``u_xx``, ``u_{x x}``, ``uₓₓ`` and ``u_
 """
 
 import re
-from typing import NamedTuple
+from typing import NamedTuple, NoReturn
 
 from primer.equations.error import PDEError
 from primer.equations.variables import GREEK, canonical, command
@@ -31,7 +31,7 @@ LATEX_WORDS = [
 ]
 _WORD = rf"[^\W\d_{SCRIPTS}{LOWERED}∂][^\W_{SCRIPTS}{LOWERED}]*"
 _SUBSCRIPT = rf"_\{{[^{{}}]*\}}|_\\[A-Za-z]+|_[^\W_{SCRIPTS}{LOWERED}]+|[{LOWERED}]+"
-_SUBSCRIPTS = re.compile(f"(?:{_SUBSCRIPT})*")
+_SUBSCRIPTS = f"(?:{_SUBSCRIPT})*"
 _TOKEN = re.compile(
     rf"""(?P<blank>[^\S\n]+|[\ufeff\u200b\u2060&$])
   | (?P<number>(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)(?P<imaginary>[ij](?!\w))?
@@ -50,36 +50,10 @@ _COMMANDS = {
     "tfrac": "frac", "sqrt": "√", "lvert": "|", "rvert": "|", "vert": "|", "mid": "|", "{": "(", "}": ")",
     "lbrace": "(", "rbrace": ")", "dot": "dot", "equiv": "=",
 }  # fmt: skip
-_BLANKS = [
-    "left",
-    "right",
-    "big",
-    "Big",
-    "bigl",
-    "bigr",
-    "Bigl",
-    "Bigr",
-    "bigg",
-    "Bigg",
-    "biggl",
-    "biggr",
-    "quad",
-    "qquad",
-    ",",
-    ";",
-    ":",
-    "!",
-    ">",
-    "[",
-    "]",
-    "(",
-    ")",
-    "displaystyle",
-    "limits",
-    "nonumber",
-    "textstyle",
-    "notag",
-] + [" "]
+_BLANKS = frozenset(
+    [" ", *",;:!>[]()", "displaystyle", "textstyle", "limits", "nonumber", "notag", "quad", "qquad", "left", "right"]
+    + [size + side for size in ("big", "Big", "bigg", "Bigg") for side in ("", "l", "r")]
+)
 _COMMENT = re.compile(r"#[^\n]*|\\(?:begin|end)\s*\{\w*\*?\}(?:\{\w*\})?|\\(?:label|tag)\s*\{[^{}]*\}")
 _FONT = re.compile(r"\\(?:text|mathrm|mathit|mathbf|mathsf|operatorname|boldsymbol|rm)\s*\{\s*(\w+)\s*\}")
 
@@ -108,9 +82,10 @@ def tokens(text, variables, given=()):
     """The tokens of a text. ``given`` are canonical names that have a value: a word Δh that has one is a name."""
     clean = cleaned(text)
     straight = _straight(clean, variables, given)  # the places of a d that differentiates
-    found, place, depth = [], 0, 0
+    found: list[Token] = []
+    place = depth = 0
 
-    def fail(problem, at):
+    def fail(problem: str, at: int) -> NoReturn:
         raise PDEError(problem, text, at)
 
     while place < len(clean):
@@ -121,7 +96,7 @@ def tokens(text, variables, given=()):
                 continue
             fail(f"unexpected character {text[place]!r}", place)
         start, place = match.start(), match.end()
-        kind, value = match.lastgroup, match[match.lastgroup]
+        kind, value = str(match.lastgroup), match[str(match.lastgroup)]
         if kind in ("number", "imaginary"):
             kind, value = "number", (match["number"], bool(match["imaginary"]))
         elif kind in ("word", "subscripts"):
@@ -159,7 +134,7 @@ def _commanded(clean, name, start, place, variables, given, fail):
     word = command(name) or (name if name in LATEX_WORDS else None)
     if word is None:
         fail(f"\\{name} is not understood", start)
-    end = _SUBSCRIPTS.match(clean, place).end()
+    end = place + len(re.match(_SUBSCRIPTS, clean[place:])[0])  # type: ignore[index]  # which matches nothing, too
     base, by, _, _ = _name(word, clean[place:end], variables, fail, start)
     return "name", (base, by, clean[start:end], True), _checked_end(clean, end, fail, start)
 
@@ -194,7 +169,7 @@ def _lowered(subscript):
 
 def _begins_equation(clean, place):
     """Whether the line that starts here is not the continuation of the one before: it has its own left side."""
-    left, equals, _ = clean[place : re.compile(r"[;\n]|$").search(clean, place).start()].partition("=")
+    left, equals, _ = re.split(r"[;\n]", clean[place:], maxsplit=1)[0].partition("=")
     return bool(equals and left.strip(" \t&"))
 
 
@@ -204,7 +179,7 @@ def _straight(clean, variables, given):
     below = rf"(?P<below>(?:d\s*(?:{by}){power}\s*)+)"
     plain = re.compile(rf"(?<!\w)d{power}\s*(?P<of>{_WORD})?\s*/\s*{below}(?!\w)")
     latex = re.compile(rf"frac\s*\{{\s*d(?P<of>{power}(?:[^{{}}]|\{{[^{{}}]*\}})*)\}}\s*\{{\s*{below}\}}")
-    places = set()
+    places: set[int] = set()
     for pattern in (plain, latex):
         for match in pattern.finditer(clean):
             of = canonical(match["of"] or "")

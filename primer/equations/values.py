@@ -12,7 +12,7 @@ import sympy as sp
 from primer.checks import shown
 from primer.equations.error import PDEError, ask
 from primer.equations.tree import split_name
-from primer.equations.variables import MARK, canonical
+from primer.equations.variables import canonical
 
 BITS = 100_000  # the largest exact power, in bits: 3^(10^9) would take for ever
 LARGEST = 1e6  # the largest argument of a function: the exponential of this has half a million digits before its point
@@ -51,16 +51,21 @@ def checked(system, at, parameters, uniform=False):
 
 
 def _inside(system, key):
-    """What the tree calls the name of a value, in whichever alphabet: nu is \u03bd, and eps is \u03b5 where no eps is."""
+    """What the tree calls the name of a value, in whichever alphabet: nu is ν, and eps is ε where there is no eps."""
     if not isinstance(key, str):
         return ""
-    name = (system.source.inside(key) if system.source else canonical(key)) or ""
+    name = system.source.inside(key) or ""
     known = (*system.unknowns, *system.parameters)
     if split_name(name)[0] in known:
         return name
-    undeclared = system.source is None or not system.source.variables.declared
-    if undeclared and name.removesuffix(MARK) in ("x", "y", "z"):
-        return name.removesuffix(MARK)  # a place that does not matter
+    variables = system.source.variables
+    if not variables.declared:  # a place, or a derivative across, that does not matter
+        base, letters = split_name(canonical(key))
+        if base in ("x", "y", "z") and not letters:
+            return base
+        if base in known and letters:
+            unused = dict(zip((v for v in "yz" if v not in variables.inner), "yz"[variables.dim - 1 :], strict=False))
+            return f"{base}_{''.join(variables.inner.get(v) or unused[v] for v in letters)}"
     for short, long in (("eps", "epsilon"), ("epsilon", "eps")):
         other = re.sub(rf"^{short}(?=_|$|\d)", long, name)
         if other != name and split_name(other)[0] in known:

@@ -7,6 +7,7 @@ taken for one of these, such as an unknown y where ``space="x"``, carries a mark
 import re
 import unicodedata
 from dataclasses import dataclass, field
+from functools import cached_property
 
 from primer.equations.error import PDEError
 from primer.equations.tree import split_name
@@ -55,7 +56,7 @@ def command(name):
     return name if name.lower() in GREEK or name in ("hbar", "ell") else None
 
 
-@dataclass
+@dataclass(frozen=True)
 class Variables:
     """The variables of a text, and its names inside and outside.
 
@@ -72,16 +73,24 @@ class Variables:
     space: tuple = ("x", "y", "z")
     time: str = "t"
     declared: bool = False
-    spelt: dict = field(default_factory=dict)
+    spelt: dict = field(default_factory=dict, compare=False)
     plain: frozenset = frozenset()
     evolved: frozenset = frozenset()
     valued: frozenset = frozenset()
 
-    def __post_init__(self):
-        self.inner = dict(zip(self.space, "xyz", strict=False)) | {self.time: "t"}
-        self.outer = {letter: name for name, letter in self.inner.items()}
-        longest = sorted(self.inner, key=len, reverse=True)
-        self._subscript = re.compile("|".join(map(re.escape, longest)))
+    @cached_property
+    def inner(self):
+        """Variable -> its letter inside."""
+        return dict(zip(self.space, "xyz", strict=False)) | {self.time: "t"}
+
+    @cached_property
+    def outer(self):
+        """Letter inside -> variable."""
+        return {letter: name for name, letter in self.inner.items()}
+
+    @cached_property
+    def _subscript(self):
+        return re.compile("|".join(map(re.escape, sorted(self.inner, key=len, reverse=True))))
 
     @property
     def dim(self):

@@ -4,8 +4,8 @@ A vector is a tuple of nodes, one for each space variable; it is gone once the t
 derivatives of brackets, (D*u_x)_x + (D*u_y)_y, and lap(u) becomes u_xx + u_yy.
 """
 
-from primer.equations.functions import minus, number, over, product_of, sum_of
 from primer.equations.error import PDEError
+from primer.equations.functions import minus, number, over, product_of, sum_of
 from primer.equations.tree import Node, split_name
 
 LAPLACIANS = 4  # one upon the other: the eighth derivatives
@@ -57,7 +57,7 @@ def added(terms, place):
 
 
 def multiplied(factors, place):
-    """The product of factors, [(sign "*" or "/", place of the sign, node or vector)]; of two vectors their dot product."""
+    """The product of factors, [(sign "*" or "/", place of the sign, node or vector)]; of two vectors their dot."""
     vectors = [k for k, (_, _, factor) in enumerate(factors) if isinstance(factor, Vector)]
     if any(factors[k][0] == "/" for k in vectors):
         raise ValueError("a division by a vector")

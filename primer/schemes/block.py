@@ -56,13 +56,14 @@ class Block:
             number(asked.blow_up_at * 1e-6),
         )
 
-    def march(self):
-        """March to the end, looking up now and then; :meth:`runs` has the outcome."""
+    def march(self, tell=lambda step: None):
+        """March to the end, looking up now and then to ``tell`` the step; :meth:`runs` has the outcome."""
         asked = self.asked
         while self.clock[2].min() == 0 and self.clock[0].max() < asked.steps and not self.halted:
             until = min(self.clock[0].max() + CHUNK // self.w.shape[2] + 1, asked.steps)
             records = asked.every, self.dist2, self.u_min, asked.shot_steps, self.shots
             compiled(KERNEL).MARCH[self.size](self.w, *self.fixed, self.clock, until, *records)
+            tell(self.clock[0].max())
 
     def runs(self, interrupted=False):
         """Yield the finished runs of the members."""

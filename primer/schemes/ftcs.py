@@ -11,11 +11,13 @@ from primer.compiled import compiled
 from primer.problems.toy import Toy
 from primer.schemes.block import KERNEL, Block
 from primer.schemes.grid import CENTRAL
+from primer.schemes.progress import step_bar
 from primer.schemes.record import plan
 from primer.schemes.run import Run, Seed
 from primer.types import DTypeLike, Problem
 
 _SHORT = 2**19  # grid points below which starting the compiler costs more than it saves
+_TELL = 256  # steps between two looks at the clock
 
 
 def ftcs(
@@ -29,6 +31,7 @@ def ftcs(
     blow_up_at: float = 1e3,
     dtype: DTypeLike = np.float64,
     digits: int | None = None,
+    progress: bool = True,
 ) -> Run:
     """March ``problem`` by the paper's central-space forward-time scheme (section A2.2.2) on n periodic points.
 
@@ -51,6 +54,7 @@ def ftcs(
                          the only perturbation
     blow_up_at : float   the run stops when Dist exceeds this or is no longer a number
     dtype, digits        float32, float64, longdouble, or a number of decimal digits (slow: arbitrary precision)
+    progress             whether to show a progress bar for a run of more than two seconds, on a terminal
 
     Returns
     -------
@@ -67,10 +71,11 @@ def ftcs(
     """
     asked = plan(n, dt, t_end, record_every, snapshots, seed, blow_up_at, dtype, digits)
     march = _compiled if _compiles(problem, asked) else _interpreted
-    return march(asked, problem)
+    with step_bar(asked.steps, progress) as tell:
+        return march(asked, problem, tell)
 
 
-def _interpreted(asked, problem):
+def _interpreted(asked, problem, tell):
     """The time loop in NumPy, for any problem and any numbers."""
     h, x, state, log = asked.start(problem)
     forcing, dt, interrupted = problem.forcing(x), asked.numbers.number(asked.dt), False
@@ -84,16 +89,18 @@ def _interpreted(asked, problem):
             while log.running:
                 state = state + dt * np.array(problem.rhs(x, state, derivative, forcing))
                 log.watch(log.clock[0] + 1, state)
+                if log.clock[0] % _TELL == 0:
+                    tell(log.clock[0])
     except KeyboardInterrupt:
         interrupted = True
     return log.run(problem, state, interrupted)
 
 
-def _compiled(asked, problem):
+def _compiled(asked, problem, tell):
     """The same time loop, to the bit, in machine code: for the toy system in float32 or float64."""
     block, interrupted = Block(asked, [problem]), False
     try:
-        block.march()
+        block.march(tell)
     except KeyboardInterrupt:
         interrupted = True
     (run,) = block.runs(interrupted)
