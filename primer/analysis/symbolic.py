@@ -10,14 +10,14 @@ import numpy as np
 import sympy as sp
 
 from primer.analysis.each import Each, each
+from primer.analysis.frozen import frozen, is_lower, is_uniform
 from primer.analysis.pencil import Pencil
 from primer.analysis.roots import DIGITS
 from primer.analysis.symbol import Symbol
 from primer.checks import shown
 from primer.equations.error import PDEError, ask
-from primer.equations.linear import read
 from primer.equations.missing import dropped, not_given
-from primer.equations.values import checked, evaluated, substituted
+from primer.equations.values import evaluated, substituted
 from primer.types import ArrayLike, Multiplier
 
 
@@ -49,7 +49,7 @@ def symbol(
     ------
     PDEError    (a ValueError) for text that cannot be used, or for values that matter and are not given, all of them
     """
-    system, values = _read(text, at, order, uniform, space, time, parameters)
+    system, values = frozen(text, at, order, uniform, space, time, parameters)
     if system.dim == 3:
         raise PDEError("a third space variable: there are x and y only")
     missing, entries = dict.fromkeys(dropped(system, values)), []
@@ -57,7 +57,7 @@ def symbol(
         for slopes in system.slopes:
             row: dict[str, dict] = {name: {} for name in system.unknowns}
             for (name, power), slope in sorted(slopes.items(), key=lambda item: -sum(item[0][1][1:])):
-                if order == "maximal" and _is_lower(power, row[name]):
+                if order == "maximal" and is_lower(power, row[name]):
                     continue
                 unset = {s.name for s in slope.free_symbols if s.name not in values}
                 missing.update(dict.fromkeys(sorted(unset)))
@@ -69,7 +69,7 @@ def symbol(
         raise PDEError(not_given(missing, system))
     if not any(n for row in entries for entry in row for n, _, _ in entry):
         raise PDEError("no equation contains a time derivative (u_t), so nothing evolves")
-    return Symbol(tuple(entries), system.dim)
+    return Symbol(tuple(entries), system.dim, is_uniform(system, values))
 
 
 def growth_rates(
@@ -170,7 +170,7 @@ def linearise(
 
 
 def _matrix(text, at, order, uniform, space, time, parameters):
-    system, values = _read(text, at, order, uniform, space, time, parameters)
+    system, values = frozen(text, at, order, uniform, space, time, parameters)
     for name in dropped(system, values):
         said = system.said(name)
         problem = (
@@ -184,7 +184,7 @@ def _matrix(text, at, order, uniform, space, time, parameters):
         row: dict[str, dict] = {name: {} for name in system.unknowns}
         for (name, power), slope in sorted(slopes.items(), key=lambda item: -sum(item[0][1][1:])):
             coefficient = _spoken(substituted(slope, values), system, {lam, *xi})
-            if not (order == "maximal" and _is_lower(power, row[name])) and coefficient != 0:
+            if not (order == "maximal" and is_lower(power, row[name])) and coefficient != 0:
                 row[name][power] = coefficient
                 n, *orders = power
                 wave = sp.prod((sp.I * k) ** m for k, m in zip(xi, orders, strict=False))
@@ -205,26 +205,6 @@ def _spoken(expression, system, waves):
         if own in waves:
             raise PDEError(f"{own} stands for the growth rate or the wavenumber: give {ask('value', own.name)}")
     return expression.xreplace(names)
-
-
-def _read(text, at, order, uniform, space, time, parameters):
-    if order not in ("full", "maximal"):
-        raise ValueError(f"order must be 'full' or 'maximal', got {shown(order)}")
-    if not isinstance(uniform, (bool, np.bool_)):
-        raise TypeError(f"uniform must be True or False, got {shown(uniform)}")
-    functions = {name: value for name, value in parameters.items() if _is_function(value)}
-    parameters = {name: value for name, value in parameters.items() if name not in functions}
-    system = read(text, parameters, at if isinstance(at, dict) else (), space, time, functions)
-    return system, checked(system, at, parameters, uniform)
-
-
-def _is_function(value):
-    return isinstance(value, str) or (callable(value) and not isinstance(value, (sp.Basic, type)))
-
-
-def _is_lower(power, kept):
-    """Whether a higher space derivative, of the same order in time, is among those kept."""
-    return any(n == power[0] and sum(rest) > sum(power[1:]) for n, *rest in kept)
 
 
 def _regular(E):

@@ -33,6 +33,7 @@ class System:
     parameters : tuple of str   the names that are neither unknowns nor variables
     dim : int                   the number of space variables: those declared, or x and those of y and z that occur
     places : dict               where in the text each of the parameters stands first
+    sides : tuple               the F themselves
     source : Source             what the text calls all of them
     slopes : tuple of dicts     for each equation {(unknown, (n, a, b)): slope}, the slope of F by the unknown's n-th
                                 t-, a-th x- and b-th y-derivative; in three space variables (n, a, b, c)
@@ -44,6 +45,7 @@ class System:
     dim: int
     slopes: tuple
     places: dict = field(default_factory=dict, compare=False)
+    sides: tuple = ()
     source: Source | None = field(default=None, compare=False, repr=False)
 
     def outside(self, name):
@@ -84,14 +86,13 @@ def _read(text, given, named, space, time, functions):
     found = unknowns(used, len(source.equations), {source.inside(name) for name in given}, source.outside)
     builder = _Builder(source, found)
     number = 4 if source.dim == 3 else 3
-    slopes = tuple(
-        _slopes(builder.build(left) - builder.build(right), found, number) for left, right in source.equations
-    )
+    sides = tuple(builder.build(left) - builder.build(right) for left, right in source.equations)
+    slopes = tuple(_slopes(F, found, number) for F in sides)
     names: dict = {}
     for (base, _, _), place in used.items():
         if base not in found and base not in VARIABLES:
             names.setdefault(base, place)
-    return System(source.text, found, tuple(names), source.dim, slopes, names, source)
+    return System(source.text, found, tuple(names), source.dim, slopes, names, sides, source)
 
 
 def _slopes(F, unknowns, number):
