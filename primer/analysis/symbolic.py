@@ -13,6 +13,7 @@ from primer.analysis.pencil import Pencil
 from primer.analysis.roots import DIGITS
 from primer.analysis.symbol import Symbol
 from primer.checks import shown
+from primer.equations.kinks import slope_at
 from primer.equations.linear import dropped, read
 from primer.equations.text import PDEError
 from primer.equations.values import checked, evaluated, substituted
@@ -38,14 +39,14 @@ def symbol(text: str, *, at: dict[str, Any] | None = None, order: str = "full", 
     system, values = _read(text, at, order, parameters)
     missing, entries = dict.fromkeys(dropped(system, values)), []
     with mp.workdps(DIGITS):
-        for slopes in system.slopes:
+        for r, slopes in enumerate(system.slopes):
             row: dict[str, dict] = {name: {} for name in system.unknowns}
             for (name, power), slope in sorted(slopes.items(), key=lambda item: -sum(item[0][1][1:])):
                 if order == "maximal" and _is_lower(power, row[name]):
                     continue
                 unset = {s.name for s in slope.free_symbols if s.name not in values}
                 missing.update(dict.fromkeys(sorted(unset)))
-                coefficient = mp.mpf(1) if unset else evaluated(slope, values)
+                coefficient = mp.mpf(1) if unset else slope_at(system, r, (name, power), values)
                 if coefficient != 0:
                     row[name][power] = coefficient
             entries.append(tuple(row.values()))
@@ -134,8 +135,8 @@ def linearise(text: str, *, at: dict[str, Any] | None = None, order: str = "full
     parts: dict = {}
     for r, slopes in enumerate(system.slopes):
         row: dict[str, dict] = {name: {} for name in system.unknowns}
-        for (name, power), slope in sorted(slopes.items(), key=lambda item: -sum(item[0][1][1:])):
-            coefficient = substituted(slope, values)
+        for name, power in sorted(slopes, key=lambda place: -sum(place[1][1:])):
+            coefficient = _in_symbols(system, r, (name, power), values)
             if not (order == "maximal" and _is_lower(power, row[name])) and coefficient != 0:
                 row[name][power] = coefficient
                 n, *orders = power
@@ -148,6 +149,18 @@ def linearise(text: str, *, at: dict[str, Any] | None = None, order: str = "full
     if max(parts, default=0) == 1 and size <= 3 and _regular(E):
         return (E.adjugate() * -S / E.det()).applyfunc(_tidied)  # up to 3 x 3 by formula: E.inv() simplifies for ever
     return sum((lam**n * part for n, part in parts.items()), sp.zeros(size))
+
+
+def _in_symbols(system, r, place, values):
+    """A slope, where names without a value stay."""
+    slope = system.slopes[r][place]
+    try:
+        return substituted(slope, values)
+    except PDEError:
+        if any(symbol.name not in values for symbol in slope.free_symbols):
+            raise
+        with mp.workdps(DIGITS):
+            return sp.nsimplify(sp.sympify(slope_at(system, r, place, values)), rational=True)
 
 
 def _read(text, at, order, parameters):
