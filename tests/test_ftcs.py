@@ -405,9 +405,17 @@ def test_a_clock_counts_whole_steps_up_to_two_to_the_53():
         ({"dtype": "nonsense"}, ValueError, "dtype must be float32, float64 or longdouble"),
         ({"dt": 1e-60, "t_end": 1e-50}, ValueError, "dt must be >= 1.2e-38, got 1e-60"),
         ({"seed": (1,)}, TypeError, "seed must be a Seed, or its (mode, amplitude, field) as a tuple, or None"),
-        ({"problem": Toy}, TypeError, "problem must be a Toy, a BackwardHeat or an object with their methods, got <cl"),
+        (
+            {"problem": Toy},
+            TypeError,
+            "problem must be a PDE, a Toy, a BackwardHeat or an object with their methods, got <cl",
+        ),
         ({"digits": 1}, ValueError, "digits must be an integer >= 2 and <= 10000, got 1"),
-        ({"problem": 3}, TypeError, "problem must be a Toy, a BackwardHeat or an object with their methods, got 3"),
+        (
+            {"problem": 3},
+            TypeError,
+            "problem must be a PDE, a Toy, a BackwardHeat or an object with their methods, got 3",
+        ),
     ],
 )
 def test_bad_input_gets_one_sentence(options, error, sentence):

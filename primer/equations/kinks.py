@@ -49,6 +49,8 @@ def _gradient(F, unknowns, values):
     base = {name: values.get(name, sp.Rational(1, 3)) for name in names}
     if F.has(sp.I) or any(number.is_real is not True for number in base.values()):
         return None
+    if all(power.exp.is_Integer for power in F.atoms(sp.Pow)):  # without a kink it is a pole, or a formula to rewrite
+        return None
     steps = _steps(len(moved))
     try:
         with mp.workdps(_DIGITS):

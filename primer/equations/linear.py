@@ -28,9 +28,9 @@ class System:
     unknowns : tuple of str     in the order in which they occur, those with a time derivative first
     parameters : tuple of str   the names that are neither unknowns nor x, y, t
     dim : int                   the number of space variables: 2 if y occurs, or a derivative by y; else 1
-    places : dict               where in the text each of the parameters stands first
     slopes : tuple of dicts     for each equation {(unknown, (n, a, b)): slope}, the slope of F by the unknown's n-th
                                 t-, a-th x- and b-th y-derivative
+    places : dict               where in the text each of the parameters stands first
     sides : tuple               the F themselves
     """
 
