@@ -13,7 +13,7 @@ from primer.analysis.pencil import Pencil
 from primer.analysis.roots import DIGITS, ZERO
 from primer.analysis.symbol import Symbol
 from primer.checks import shown
-from primer.equations.kinks import slope_at
+from primer.equations.kinks import slope_at, slope_at_kink
 from primer.equations.linear import dropped, read
 from primer.equations.text import PDEError, split_name
 from primer.equations.values import checked, evaluated, substituted
@@ -159,8 +159,10 @@ def _in_symbols(system, r, place, values):
     except PDEError:
         if any(symbol.name not in values for symbol in slope.free_symbols):
             raise
-        with mp.workdps(DIGITS):
-            return sp.nsimplify(sp.sympify(slope_at(system, r, place, values)), rational=True)
+        found = slope_at_kink(system, r, place, values)
+        if found is None:
+            raise
+        return sp.nsimplify(sp.sympify(found), rational=True)
 
 
 def _read(text, at, order, parameters):

@@ -18,22 +18,29 @@ _VANISHES, _AGREES, _NOTHING = mp.mpf("1e-6"), mp.mpf("1e-12"), mp.mpf("1e-200")
 def slope_at(system, equation, place, values):
     """The slope of an equation by (unknown, power), a number, at a base state that gives all that it needs.
 
-    Where the formula divides by zero it is the limit of difference quotients, provided that the equation (continued, if
-    it divides by zero itself) is differentiable there: in each of many directions the quotient must tend to the sum of
-    the slopes along it. So |z| z and z^2/|z|^(1/2) have the slope 0 at z = 0, and |z| has none.
-
     Raises
     ------
     PDEError    where there is no slope
     """
-    formula = system.slopes[equation][place]
     try:
-        return evaluated(formula, values)
+        return evaluated(system.slopes[equation][place], values)
     except PDEError:
-        slopes = _gradient(system.sides[equation], system.unknowns, values)
-        if slopes is None or abs(slopes[_name(*place)]) > LARGEST_SLOPE:
+        found = slope_at_kink(system, equation, place, values)
+        if found is None:
             raise
-        return slopes[_name(*place)]
+        return found
+
+
+def slope_at_kink(system, equation, place, values):
+    """The same where the formula divides by zero, or None where there is no slope.
+
+    It is the limit of difference quotients, provided that the equation (continued, if it divides by zero itself) is
+    differentiable there: in each of many directions the quotient must tend to the sum of the slopes along it. So |z| z
+    and z^2/|z|^(1/2) have the slope 0 at z = 0, and |z| has none.
+    """
+    slopes = _gradient(system.sides[equation], system.unknowns, values)
+    found = None if slopes is None else slopes[_name(*place)]
+    return found if found is None or abs(found) <= LARGEST_SLOPE else None
 
 
 def _name(unknown, power):
