@@ -44,7 +44,7 @@ def slope_at_kink(system, equation, place, values):
 
 
 def _name(unknown, power):
-    letters = "".join(sorted(letter * n for letter, n in zip("txy", power, strict=True)))
+    letters = "".join(sorted(letter * n for letter, n in zip("txyz", power, strict=False)))
     return f"{unknown}_{letters}" if letters else unknown
 
 
