@@ -45,12 +45,11 @@ def fields_of(problem: Any, name: str, x: np.ndarray) -> tuple:
 
 def slope_of(problem: Any, x: np.ndarray, derivative: Callable) -> Callable[[np.ndarray, Any], np.ndarray]:
     """f(state, t): the time derivatives, of the shape of the state (fields, n)."""
-    forcing = problem.forcing(x)
+    forcing, timed = problem.forcing(x), not getattr(problem, "autonomous", True)
     if hasattr(problem, "evolution"):  # a text: what it gives has the right shape
-        if problem.autonomous:
+        if not timed:
             return lambda state, t: np.array(problem.rhs(x, state, derivative, forcing))
         return lambda state, t: np.array(problem.rhs(x, state, derivative, forcing, t))
-    timed = not getattr(problem, "autonomous", True)
 
     def asked(f, m):
         if np.shape(f)[-1:] != x.shape:
