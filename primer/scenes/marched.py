@@ -53,9 +53,8 @@ def marched(problem: PDE, n: int, t_end: float, work: float = WORK) -> GridCompa
 def in_words(found: GridComparison) -> str:
     """What the grids show, in a sentence; proof is none of it.
 
-    >>> print(in_words(marched(PDE("u_t = u_xx", {"u": "sin(x)"}), 16, 1.0)))
-    On 16, 32 and 64 points the run reaches t = 1; successive grids differ by 0.00355 and 0.000887 there, a ratio of \
-4.0: they converge, with order 2.0.
+    >>> print(in_words(compare_grids(PDE("u_t = u_xx", {"u": "sin(x)"}), [16, 32], 1.0)))
+    On 16 and 32 points the run reaches t = 1; successive grids differ by 0.00355 there.
     """
     sizes = _listed(found.n)
     if found.by_scheme.any():
