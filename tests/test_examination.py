@@ -394,7 +394,7 @@ def test_the_picture_shows_each_step_and_the_limit():
 # The adapters of the module's docstring
 
 
-ADAPTERS = dict(re.findall(r"    # (.*)\n((?:    .*\n)+)", inspect.getdoc(black_box)))
+ADAPTERS = dict(re.findall(r"    # (.*)\n((?:    .*\n)+)", inspect.getdoc(black_box) + "\n"))
 EXPECTED = {
     "NumPy": ("", (16, 32, 64), 5e-2, "scheme"),
     "solve_ivp": ("scipy", (16, 32, 64), 1e-3, "ill-posed"),

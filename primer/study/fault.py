@@ -107,8 +107,8 @@ def _growing(seen, waves):
 
 
 def _power(seen, n, last):
-    """p of growth = c n^p - d through the last three grids, if they all grow; else ``last``, from two of them."""
-    if len(seen) < 3 or not seen[-3].grows or seen[-3].wavelength * n[-3] > _FOLLOWS**2 * seen[-1].wavelength * n[-1]:
+    """p of growth = c n^p - d through the last three grids, if all show the same wave; else ``last``, from two."""
+    if len(seen) < 3 or not 1 / _FOLLOWS < seen[-3].wavelength * n[-3] / (seen[-1].wavelength * n[-1]) < _FOLLOWS:
         return last
     g, m = [each.growth for each in seen[-3:]], np.array(n[-3:], dtype=float) / n[-1]
     if not g[2] > g[1] > g[0]:
