@@ -79,6 +79,7 @@ class Meter:
         self.patience, self.calls, self.seconds = patience, 0, 0.0
 
     def left(self):
+        """The seconds that are left."""
         return self.patience - self.seconds
 
 
