@@ -304,6 +304,19 @@ def test_single_precision_is_noise_and_said_to_be():
     assert found.error[-1] > 1e4 * examine(euler(d2), flat(1.0), GRIDS, 1e-4).error[-1]
 
 
+def test_a_tolerance_that_swallows_small_perturbations_is_seen():
+    """As a linear solver does that starts from the last fields and finds them good enough."""
+
+    def step(u, dt):
+        new = u - 0.1 * dt * d2(u)
+        return new if np.abs(new - u).max() > 1e-5 else u
+
+    for base in (flat(1.0), curved(lambda x: 1 + 1e-9 * np.sin(x))):
+        found = examine(step, base, GRIDS, 1e-4)
+        assert found.kind == "undecided" or found.kind == "ill-posed"
+    assert "tighten the tolerances" in examine(step, flat(1.0), GRIDS, 1e-6).reason
+
+
 def test_noise_that_hides_everything_is_said():
     found = examine(lambda u, dt: np.round(u + dt * d2(u), 3), curved(np.sin), GRIDS, 1e-4)
     assert found.kind == "undecided"

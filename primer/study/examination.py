@@ -136,7 +136,7 @@ def examine(
         if verdict.kind in (Fault.STABLE, Fault.UNSTABLE) and (lost := _lost(step, state, grids[-1], dt)):
             return _undecided(grids, dt, meter, f"Cannot tell: small perturbations say '{verdict.kind}', but {lost}.")
     except Lost as why:
-        text = f"Cannot tell: from some perturbed state {why}; a smaller dt may do, or another base state."
+        text = f"Cannot tell: from some perturbed state {why} (or a smaller dt may do, or another base state)."
         return _undecided(grids, dt, meter, text)
     except Exhausted:
         text = f"Cannot tell: {meter.calls} calls took {meter.seconds:.0f} s, more than patience = {patience:g} foresaw"

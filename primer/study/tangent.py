@@ -17,6 +17,7 @@ from primer.study.black_box import Box, Lost
 
 _DELTAS = 10.0 ** np.arange(-9, 0)  # of a field's size
 _MIDDLE = 3  # 1e-6 and 1e-5: right for a smooth step in double precision
+_DEAF = 1e-3  # of what is done to larger perturbations: no nonlinearity makes such a difference
 _ROUNDING = 1e-15  # what no difference of numbers near 1 can be better than
 
 
@@ -85,7 +86,16 @@ def tangent(box, dt, near=None):
     if not np.isfinite(gap(i)):
         reasons = [each for each in known.values() if isinstance(each, Lost)]
         raise reasons[0]
+    if near is None and _is_deaf(product, i, v):
+        raise Lost("it leaves small perturbations as they are, and not larger ones: tighten the tolerances inside it")
     return Tangent(box, dt, float(_DELTAS[i]), max(gap(i), _ROUNDING))
+
+
+def _is_deaf(product, i, v):
+    """Whether the step does next to nothing to perturbations of one size, and something to larger ones."""
+    here = np.abs(product(i) - v).max()
+    larger = [product(k) for k in range(i + 1, len(_DELTAS)) if k > len(_DELTAS) - 4]
+    return any(not isinstance(each, Lost) and here < _DEAF * np.abs(each - v).max() for each in larger)
 
 
 def blocks(A):
