@@ -99,10 +99,11 @@ def _verdict(options):
         number = {"exponent": _plain(found.exponent), "exponent_text": str(found.exponent)}
         rest = {name: _plain(getattr(found, name)) for name in ("coefficient", "bound")}
         rest |= {"direction": list(found.direction), "grows": found.grows, "unstable": found.unstable}
-        rest |= {"reason": found.reason}
+        rest |= {"loss": _plain(found.loss), "reason": found.reason}
         return json.dumps({"kind": str(found.kind), **number, **rest}, indent=1)
     growing = (", unstable" if found.unstable else ", with growth") if 0 < found.bound < math.inf else ""
-    rows = [("verdict", str(found.kind) + growing)]
+    weakly = "weakly " if 0 < found.loss < math.inf else ""
+    rows = [("verdict", weakly + str(found.kind) + growing)]
     if math.isfinite(found.exponent):
         rows.append(("short waves", str(Law(Fraction(found.exponent), found.coefficient))))
     if found.direction:
