@@ -68,8 +68,8 @@ def pde(
              a text without blanks, "f=u^3-u"; and what the variables are called, "space=r", "space=x,z", "time=tau"
     order    "full", or "maximal": the highest derivatives alone
     uniform  whether all derivatives of the base state are 0
-    n        4 to 1024, on this period; derivatives above the second are products of the central differences of first and
-             second order
+    n        4 to 1024, on this period; derivatives above the second are products of the central differences of first
+             and second order
 
     Raises
     ------
