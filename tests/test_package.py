@@ -36,6 +36,7 @@ FLOORS = [
     "exercises",
     "view",
     "lab",
+    "site",
     "__main__",
 ]
 
