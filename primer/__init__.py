@@ -28,6 +28,7 @@ _HOME = {
     "Lines": "schemes.lines",
     "MaxGrowth": "analysis.directions",
     "MuI": "granular.friction",
+    "PDE": "problems.pde",
     "PDEError": "equations.error",
     "PastHorizon": "schemes.reference",
     "Pencil": "analysis.pencil",

@@ -31,6 +31,7 @@ from .granular.rheology import Coulomb as Coulomb
 from .granular.rheology import IncompressibleMuI as IncompressibleMuI
 from .granular.state import BaseState as BaseState
 from .problems.heat import BackwardHeat as BackwardHeat
+from .problems.pde import PDE as PDE
 from .problems.toy import Toy as Toy
 from .schemes.ensemble import ftcs_ensemble as ftcs_ensemble
 from .schemes.fourier import FOURIER as FOURIER

@@ -98,11 +98,14 @@ def _verdict(options):
     if options.json:
         number = {"exponent": _plain(found.exponent), "exponent_text": str(found.exponent)}
         rest = {name: _plain(getattr(found, name)) for name in ("coefficient", "bound")}
-        rest |= {"direction": list(found.direction), "unstable": found.unstable, "reason": found.reason}
+        rest |= {"direction": list(found.direction), "grows": found.grows, "unstable": found.unstable}
+        rest |= {"reason": found.reason}
         return json.dumps({"kind": str(found.kind), **number, **rest}, indent=1)
-    rows = [("verdict", str(found.kind) + (", unstable" if found.unstable and math.isfinite(found.bound) else ""))]
-    if found.direction:
+    growing = (", unstable" if found.unstable else ", with growth") if 0 < found.bound < math.inf else ""
+    rows = [("verdict", str(found.kind) + growing)]
+    if math.isfinite(found.exponent):
         rows.append(("short waves", str(Law(Fraction(found.exponent), found.coefficient))))
+    if found.direction:
         rows.append(("bound", f"Re lambda <= {found.bound:.10g}" if math.isfinite(found.bound) else "none"))
     if len(found.direction) == 2:
         rows.append(("direction", "({:.6g}, {:.6g})".format(*found.direction)))

@@ -3,7 +3,7 @@
 import math
 import sys
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -36,6 +36,14 @@ class Arithmetic:
         length = turns * self.pi if turns * math.pi == period else self.number(period)
         h = length / n
         return self.number(h), (-length / 2 + h * np.arange(n)).astype(self.dtype)
+
+    @property
+    def complex(self):
+        """The complex numbers that go with these."""
+        if self.dtype == object:
+            return replace(self, number=self.number(0).context.mpc)
+        dtype = np.result_type(self.dtype, np.complex64)
+        return replace(self, dtype=dtype, number=dtype.type)
 
     def array(self, values):
         """A new array of these numbers."""

@@ -1,4 +1,4 @@
-"""Compiled loops where numba can be imported, NumPy where it cannot."""
+"""Compiled loops where numba loads, NumPy where it does not."""
 
 import warnings
 from functools import cache, wraps
@@ -7,12 +7,35 @@ from importlib import import_module
 
 @cache
 def compiled(module):
-    """The module of that dotted name, which imports numba, or None where numba cannot be imported (said once)."""
+    """The module of that dotted name, which imports numba, or None where numba does not load (said once).
+
+    A numba that does not fit its NumPy or its compiler fails with a SystemError, an AttributeError or an OSError as
+    well as with an ImportError: whatever it is, NumPy gives the same results.
+    """
+    why = _numba_fails()
+    if not why:
+        try:
+            return import_module(module)
+        except Exception as problem:
+            why = _sentence(problem)
+    _say(why)
+    return None
+
+
+@cache
+def _numba_fails():
+    """Why numba does not load, or "": asked once, for a second attempt may fail in another way."""
     try:
-        return import_module(module)
-    except ImportError as missing:
-        _say(str(missing))
-        return None
+        import_module("numba")
+    except Exception as problem:
+        return _sentence(problem)
+    return ""
+
+
+def _sentence(problem):
+    words = " ".join(str(problem).split())
+    words = words if isinstance(problem, ImportError) and words else f"{type(problem).__name__}: {words}"
+    return words if len(words) <= 160 else words[:157] + "..."
 
 
 @cache

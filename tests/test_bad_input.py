@@ -111,9 +111,9 @@ TABLE = {
     "Grid.derivative": (
         Grid(8).derivative,
         {"f": X, "m": 1},
-        {"f": (*ARRAY, np.zeros(7), np.zeros((8, 7)), []), "m": (*INTEGER, 0, 3, HUGE)},
+        {"f": (*ARRAY, np.zeros(7), np.zeros((8, 7)), []), "m": (*INTEGER, 0, 13, HUGE)},
     ),
-    "Grid.multiplier": (Grid(8).multiplier, {"xi": X, "m": 2}, {"xi": ARRAY, "m": (*INTEGER, 0, 3, HUGE)}),
+    "Grid.multiplier": (Grid(8).multiplier, {"xi": X, "m": 2}, {"xi": ARRAY, "m": (*INTEGER, 0, 13, HUGE)}),
     "Seed": (
         Seed,
         {"mode": 1, "amplitude": 1.0, "field": "u", "phase": 0.0},

@@ -154,7 +154,12 @@ def test_an_interrupted_ensemble_keeps_what_it_has(monkeypatch):
     ("problems", "options", "error", "sentence"),
     [
         (3, {}, TypeError, "problems must be a sequence of problems, got 3"),
-        ([Toy(1.5), 3], {}, TypeError, "problems must be a Toy, a BackwardHeat or an object with their methods, got 3"),
+        (
+            [Toy(1.5), 3],
+            {},
+            TypeError,
+            "problems must be a PDE, a Toy, a BackwardHeat or an object with their methods",
+        ),
         ([Toy(1.5)], {"n": 3}, ValueError, "n must be an integer >= 4, got 3"),
         ([Toy(1.5)] * 50_000, {"record_every": 1}, ValueError, "record_every, snapshots and n must let "),
     ],

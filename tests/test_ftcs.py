@@ -1,20 +1,24 @@
 """Guards the scheme: its bits, its orders, the paper's three runs, what a run records, and how it ends."""
 
 import math
+import os
 import signal
 import subprocess
 import sys
 import time
 import tracemalloc
+from importlib import import_module
+from pathlib import Path
 
 import numpy as np
 import pytest
 from scipy.linalg import expm
 from transcription import dist, march
 
+import primer
 import primer.schemes.ftcs as scheme
-from primer import BackwardHeat, Run, Seed, Stop, Toy, ftcs
-from primer.compiled import _say, compiled
+from primer import BackwardHeat, Run, Seed, Stop, Toy, ftcs, march_lines
+from primer.compiled import _numba_fails, _say, compiled
 from primer.schemes import record
 from primer.schemes.discrete import dist_floor
 from primer.schemes.grid import Grid
@@ -260,20 +264,21 @@ def test_ctrl_c_returns_what_was_recorded():
 
 @pytest.mark.slow
 @pytest.mark.skipif(sys.platform == "win32", reason="sends a POSIX signal")
-def test_ctrl_c_stops_the_compiled_loop():
+def test_ctrl_c_stops_the_compiled_loop(ctrl_c):
     code = (
-        "from primer import Toy, ftcs; ftcs(Toy(1.5), t_end=10); print('go', flush=True);"
-        "run = ftcs(Toy(1.5), t_end=1e6, record_every=100_000); print(run.stop.name, run.t.size, run.t_stop > 0)"
+        "from primer import Toy, ftcs; from primer.schemes.block import Block; ftcs(Toy(1.5), t_end=10);"
+        "march = Block.march; Block.march = lambda block: (print('go', flush=True), march(block));"
+        "run = ftcs(Toy(1.5), t_end=1e6, record_every=100_000); print(run.stop.name, run.t.size, run.t_stop < 1e6)"
     )
     process = subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, text=True)
-    assert process.stdout.readline() == "go\n"
-    time.sleep(1)  # the run would take minutes
-    process.send_signal(signal.SIGINT)
     try:
-        out, _ = process.communicate(timeout=60)
+        assert process.stdout.readline() == "go\n"
+        time.sleep(0.5)  # the run would take minutes; whether it has begun by then or not, it ends the same
+        process.send_signal(signal.SIGINT)
+        out, _ = process.communicate()
     finally:
         process.kill()
-    assert out.split()[0] == "INTERRUPTED"
+    assert out.split()[::2] == ["INTERRUPTED", "True"]
 
 
 def test_without_numba_it_is_said_once(monkeypatch):
@@ -288,6 +293,49 @@ def test_without_numba_it_is_said_once(monkeypatch):
         compiled.cache_clear()
     *_, last = march(1.5, 0.01, 100, 1e-3, 20)
     np.testing.assert_array_equal(run.final, last)
+
+
+@pytest.mark.parametrize("problem", [OSError, SystemError, AttributeError, RuntimeError, TypeError, ImportError])
+def test_a_numba_that_fails_to_load_in_any_way_is_said_once(problem, monkeypatch):
+    """llvmlite without its library is an OSError, numba with a NumPy too new a SystemError or an AttributeError."""
+    attempts = []
+
+    def broken(name):
+        if not name.startswith(("numba", "primer.")):
+            return import_module(name)
+        attempts.append(name)
+        raise problem(f"could not load {len(attempts)}\nand more")
+
+    monkeypatch.setattr("primer.compiled.import_module", broken)
+    monkeypatch.setitem(sys.modules, "primer.schemes.kernel", None)  # so that a short run asks for it, too
+    caches = compiled, _say, _numba_fails
+    for cache in caches:
+        cache.cache_clear()
+    try:
+        with pytest.warns(RuntimeWarning, match="numba is not here .*could not load 1 and more.*slower") as said:
+            run = ftcs(Toy(1.5), 100, 1e-3, 0.02)
+        assert [one.filename for one in said] == [__file__]
+        ftcs(Toy(1.5), 100, 1e-3, 0.02)  # silent: a warning here would be an error
+        lines = march_lines(Toy(1.5), 16, 1e-3, 0.02).final
+    finally:
+        for cache in caches:
+            cache.cache_clear()
+    monkeypatch.undo()
+    np.testing.assert_array_equal(run.final, list(march(1.5, 0.01, 100, 1e-3, 20))[-1])
+    np.testing.assert_allclose(lines, march_lines(Toy(1.5), 16, 1e-3, 0.02).final, rtol=0, atol=1e-14)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("problem", ["OSError('libllvmlite.so')", "SystemError('_internal')", "AttributeError('long')"])
+def test_a_broken_numba_costs_a_new_process_only_time(problem, tmp_path):
+    (tmp_path / "numba.py").write_text(f"raise {problem}\n")
+    code = "from primer import Toy, ftcs, march_lines; print(ftcs(Toy(1.5), t_end=0.1).dist[-1].hex());"
+    code += "march_lines(Toy(1.5), 16, 1e-3, 0.1)"
+    env = {**os.environ, "PYTHONPATH": f"{tmp_path}{os.pathsep}{Path(primer.__file__).parents[1]}"}
+    found = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, env=env, timeout=120)
+    assert found.stdout == f"{ftcs(Toy(1.5), t_end=0.1).dist[-1].hex()}\n", found.stderr
+    assert found.stderr.count("RuntimeWarning: numba is not here") == 1
+    assert "Traceback" not in found.stderr
 
 
 @pytest.mark.parametrize("dtype", [np.float32, np.float64])
@@ -357,9 +405,17 @@ def test_a_clock_counts_whole_steps_up_to_two_to_the_53():
         ({"dtype": "nonsense"}, ValueError, "dtype must be float32, float64 or longdouble"),
         ({"dt": 1e-60, "t_end": 1e-50}, ValueError, "dt must be >= 1.2e-38, got 1e-60"),
         ({"seed": (1,)}, TypeError, "seed must be a Seed, or its (mode, amplitude, field) as a tuple, or None"),
-        ({"problem": Toy}, TypeError, "problem must be a Toy, a BackwardHeat or an object with their methods, got <cl"),
+        (
+            {"problem": Toy},
+            TypeError,
+            "problem must be a PDE, a Toy, a BackwardHeat or an object with their methods, got <cl",
+        ),
         ({"digits": 1}, ValueError, "digits must be an integer >= 2 and <= 10000, got 1"),
-        ({"problem": 3}, TypeError, "problem must be a Toy, a BackwardHeat or an object with their methods, got 3"),
+        (
+            {"problem": 3},
+            TypeError,
+            "problem must be a PDE, a Toy, a BackwardHeat or an object with their methods, got 3",
+        ),
     ],
 )
 def test_bad_input_gets_one_sentence(options, error, sentence):

@@ -318,7 +318,7 @@ def test_the_longest_marches_allowed(monkeypatch):
 
 @pytest.mark.parametrize("wrong", [Toy, 3, object()])
 def test_what_is_no_problem_is_named(wrong):
-    with pytest.raises(TypeError, match=r"^problem must be a Toy, a BackwardHeat or an object with their"):
+    with pytest.raises(TypeError, match=r"^problem must be a PDE, a Toy, a BackwardHeat or an object with their"):
         march_lines(wrong, 4, 0.1, 1.0)
     with pytest.raises(TypeError, match="toy must be a Toy, got"):
         stable_step(wrong, 4, CENTRAL, RK4)

@@ -10,11 +10,11 @@ import numpy as np
 import sympy as sp
 
 from primer.analysis.pencil import Pencil
-from primer.analysis.roots import DIGITS
+from primer.analysis.roots import DIGITS, ZERO
 from primer.analysis.symbol import Symbol
 from primer.checks import shown
 from primer.equations.linear import dropped, read
-from primer.equations.text import PDEError
+from primer.equations.text import PDEError, split_name
 from primer.equations.values import checked, evaluated, substituted
 from primer.types import ArrayLike, Multiplier
 
@@ -53,7 +53,7 @@ def symbol(text: str, *, at: dict[str, Any] | None = None, order: str = "full", 
         raise PDEError(_what_is_missing(missing, system))
     if not any(n for row in entries for entry in row for n, _, _ in entry):
         raise PDEError("no equation contains a time derivative (u_t), so nothing evolves")
-    return Symbol(tuple(entries), system.dim)
+    return Symbol(tuple(entries), system.dim, _is_uniform(system, values))
 
 
 def growth_rates(
@@ -160,6 +160,24 @@ def _read(text, at, order, parameters):
 def _is_lower(power, kept):
     """Whether a higher space derivative, of the same order in time, is among those kept."""
     return any(n == power[0] and sum(rest) > sum(power[1:]) for n, *rest in kept)
+
+
+def _is_uniform(system, values):
+    """Whether the base state is uniform and steady, as far as given; an unknown without a value counts as zero."""
+    state = dict(values)
+    names = {symbol.name for F in system.sides for symbol in F.free_symbols}
+    for name in names | set(values):
+        base, letters = split_name(name)
+        if base in "xyt" or (base in system.unknowns and letters and values.get(name, 0) != 0):
+            return False
+        if base in system.unknowns:
+            state.setdefault(name, sp.S.Zero)
+    try:
+        with mp.workdps(DIGITS):
+            left = (substituted(F, state) for F in system.sides)
+            return all(not F.free_symbols and abs(evaluated(F, {})) < ZERO for F in left)
+    except PDEError:  # without a value at this state, as log(u) at u = 0 where u matters to no slope
+        return False
 
 
 def _what_is_missing(missing, system):

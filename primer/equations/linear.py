@@ -28,9 +28,10 @@ class System:
     unknowns : tuple of str     in the order in which they occur, those with a time derivative first
     parameters : tuple of str   the names that are neither unknowns nor x, y, t
     dim : int                   the number of space variables: 2 if y occurs, or a derivative by y; else 1
-    places : dict               where in the text each of the parameters stands first
     slopes : tuple of dicts     for each equation {(unknown, (n, a, b)): slope}, the slope of F by the unknown's n-th
                                 t-, a-th x- and b-th y-derivative
+    places : dict               where in the text each of the parameters stands first
+    sides : tuple               the F themselves
     """
 
     text: str
@@ -39,6 +40,7 @@ class System:
     dim: int
     slopes: tuple
     places: dict = field(default_factory=dict, compare=False)
+    sides: tuple = ()
 
 
 def read(text, given=()):
@@ -47,13 +49,14 @@ def read(text, given=()):
     used = uses(equations, CONSTANTS)
     found = unknowns(used, len(equations), given)
     builder = _Builder(text, found)
-    slopes = tuple(_slopes(builder.build(left) - builder.build(right), found) for left, right in equations)
+    sides = tuple(builder.build(left) - builder.build(right) for left, right in equations)
+    slopes = tuple(_slopes(F, found) for F in sides)
     names: dict = {}
     for (base, _, _), place in used.items():
         if base not in found and base not in VARIABLES:
             names.setdefault(base, place)
     dim = 2 if any(base == "y" or "y" in own + around for base, own, around in used) else 1
-    return System(text, found, tuple(names), dim, slopes, names)
+    return System(text, found, tuple(names), dim, slopes, names, sides)
 
 
 def dropped(system, values):

@@ -39,7 +39,7 @@ class Evolution:
     constants       terms of numbers and parameters: computed once a run
     fixed           terms of x alone: computed once a run, for each x
     clocks          terms of t alone: computed once for each t
-    divisors        numbers of the constants that are divided by where the equations are solved, and must not be 0
+    divisors        numbers of the constants by which something else is divided: they must not be 0
     imaginary       whether i occurs
     """
 
@@ -87,6 +87,7 @@ class _Lowering:
         self.number = number
         self.inner = []  # [(depth, term of a differentiated bracket)], in the order in which they were met
         self.shared: dict = {"constant": {}, "fixed": {}, "clock": {}}
+        self.divisors: set = set()
         self.imaginary = False
 
     def evolution(self, text, fields, parameters, terms, divisors):
@@ -99,10 +100,18 @@ class _Lowering:
         for depth in range(last):
             stages.append(self.stage([term for d, term in self.inner if d == depth]))
         stages.append(self.stage(terms))
-        zero_not = {self.lower(term, {}).value for term in divisors if not self.needs(term)}
+        self.divisors |= {self.lower(term, {}).value for term in divisors if not self.needs(term)}
         constants, fixed, clocks = (tuple(found) for found in self.shared.values())
         return Evolution(
-            text, fields, parameters, tuple(stages), constants, fixed, clocks, tuple(sorted(zero_not)), self.imaginary
+            text,
+            fields,
+            parameters,
+            tuple(stages),
+            constants,
+            fixed,
+            clocks,
+            tuple(sorted(self.divisors)),
+            self.imaginary,
         )
 
     def depth(self, term):
@@ -134,6 +143,8 @@ class _Lowering:
         if term.kind == "slot":
             slots[term.value] = None
             return term
+        if term.kind == "/" and not self.needs(term.operands[1]):
+            self.divisors.add(self.lower(term.operands[1], slots).value)
         return Term(term.kind, term.value, tuple(self.lower(operand, slots) for operand in term.operands))
 
     def needs(self, term):

@@ -32,7 +32,10 @@ def data(name: str, fields: tuple[str, ...], given: Any) -> tuple[tuple[str, Dat
 def _datum(name, given):
     if isinstance(given, str) or callable(given):
         return given
-    array = np.asarray(given) if np.iterable(given) or isinstance(given, (Number, np.number)) else np.array(None)
+    try:
+        array = np.asarray(given if np.iterable(given) or isinstance(given, (Number, np.number)) else None)
+    except ValueError:  # a ragged list
+        array = np.array(None)
     if array.dtype.kind not in "iufc" or array.ndim > 1 or isinstance(given, (set, dict)):
         raise TypeError(
             f"{name} must be a text, a number, a sequence of samples or a function of x, got {shown(given)}"

@@ -111,7 +111,7 @@ class PDE:
         if not np.isfinite(found).all():
             raise PDEError(f"parameters must leave the constants in the text finite, got {shown(self.parameters)}")
         if any(found[k] == 0 for k in self.evolution.divisors):
-            raise PDEError(f"parameters must not make a time derivative's factor 0, got {shown(self.parameters)}")
+            raise PDEError(f"parameters must not lead to a division by zero, got {shown(self.parameters)}")
         return found
 
     @cached_property

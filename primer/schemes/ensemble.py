@@ -13,7 +13,8 @@ from primer.compiled import compiled
 from primer.problems.toy import Toy
 from primer.schemes.block import KERNEL, Block
 from primer.schemes.ftcs import ftcs
-from primer.schemes.record import a_problem, plan
+from primer.schemes.marching import a_problem
+from primer.schemes.record import plan
 from primer.schemes.run import Run, Seed
 from primer.types import DTypeLike, Problem
 
@@ -60,7 +61,7 @@ def ftcs_ensemble(
         a_problem("problems", problem)
     options = (n, dt, t_end, record_every, snapshots, seed, blow_up_at, dtype, digits)
     asked = plan(*options)
-    asked.refuse_if_large(fields=2, members=len(problems))
+    asked.refuse_if_large(max((len(problem.fields) for problem in problems), default=1), members=len(problems))
     blockwise = asked.numbers.dtype in (np.float32, np.float64) and all(type(p) is Toy for p in problems)
     if not blockwise or compiled(KERNEL) is None:
         return tuple(ftcs(problem, *options) for problem in problems)

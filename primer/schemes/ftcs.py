@@ -11,6 +11,7 @@ from primer.compiled import compiled
 from primer.problems.toy import Toy
 from primer.schemes.block import KERNEL, Block
 from primer.schemes.grid import CENTRAL
+from primer.schemes.marching import slope_of
 from primer.schemes.progress import step_bar
 from primer.schemes.record import plan
 from primer.schemes.run import Run, Seed
@@ -78,16 +79,12 @@ def ftcs(
 def _interpreted(asked, problem, tell):
     """The time loop in NumPy, for any problem and any numbers."""
     h, x, state, log = asked.start(problem)
-    forcing, dt, interrupted = problem.forcing(x), asked.numbers.number(asked.dt), False
-
-    def derivative(f, m):
-        return CENTRAL[m](f, h)
-
+    slope, dt, interrupted = slope_of(problem, x, lambda f, m: CENTRAL[m](f, h)), asked.numbers.number(asked.dt), False
     try:
         # One step may carry a blow-up from below the stated amplitude to beyond the largest number.
-        with np.errstate(over="ignore", invalid="ignore"):
+        with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
             while log.running:
-                state = state + dt * np.array(problem.rhs(x, state, derivative, forcing))
+                state = state + dt * slope(state, asked.numbers.number(int(log.clock[0])) * dt)
                 log.watch(log.clock[0] + 1, state)
                 if log.clock[0] % _TELL == 0:
                     tell(log.clock[0])

@@ -11,6 +11,7 @@ RK4 4 1e-05
 RK8 8 4e-13
 """
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -24,8 +25,7 @@ class RungeKutta:
 
         k_i = f(y + dt sum_{j<i} A[i, j] k_j),    y(t + dt) ~ y + dt sum_i b[i] k_i
 
-    with an error of order dt^order over a fixed time. The right-hand sides here do not depend on t, so the nodes c are
-    not needed.
+    with an error of order dt^order over a fixed time; where f depends on t as well, stage i is at t + dt sum_j A[i, j].
 
     Attributes
     ----------
@@ -50,11 +50,17 @@ class RungeKutta:
         A.flags.writeable = b.flags.writeable = False
         return A, b
 
-    def step(self, f: Callable[[np.ndarray], np.ndarray], y: np.ndarray, dt: float) -> np.ndarray:
-        """The state one step dt after the array y, where ``f(y)`` gives y'."""
+    @cached_property
+    def nodes(self) -> tuple[float, ...]:
+        """(s,) the times of the stages in units of dt: the sums of the rows of A."""
+        return tuple(math.fsum(row) for row in ((), *self.rows))
+
+    def step(self, f: Callable, y: np.ndarray, dt: float, t: float | None = None) -> np.ndarray:
+        """The state one step dt after the array y, where ``f(y)`` gives y'; or, where t is given, ``f(y, t)``."""
         slopes: list[np.ndarray] = []
-        for row in ((), *self.rows):
-            slopes.append(f(_combine(y, dt, row, slopes)))
+        for row, node in zip(((), *self.rows), self.nodes, strict=True):
+            at = _combine(y, dt, row, slopes)
+            slopes.append(f(at) if t is None else f(at, t + node * dt))
         return _combine(y, dt, self.b, slopes)
 
 

@@ -24,7 +24,7 @@ def draw_pde(axes: Sequence[Axes], answer: PDEAnswer) -> None:
     cut_off = answer.n / 2
     draw_growth(growth, answer.grid_xi, answer.grid_rate, label=f"on N = {answer.n}", cut_off=cut_off, ls="--", color=V)
     found = answer.found
-    if found.direction and found.coefficient:
+    if np.isfinite(float(found.exponent)) and found.coefficient:
         far = XI[XI >= 10]
         law = Law(Fraction(found.exponent), found.coefficient)
         name = str(law).replace("lambda", "λ").replace("xi", "ξ").replace("->", "→")
