@@ -1,7 +1,7 @@
 """A page that needs no installation: move a, eps, N and time; growth, Dist(t), fields and verdict answer at once.
 
-One HTML file for any browser, without network: base states from -1 to 2, grids of 16 to 200 points, three values of eps,
-from the data of eq. (toy-initial) to t = 100 as in A2.2.2. Each state is computed here and looked up there. Round-off
+One HTML file for any browser, without network: base states from -1 to 2, grids of 16 to 200 points, three eps, and
+the data of eq. (toy-initial) to t = 100 as in A2.2.2. Each state is computed here and looked up there. Round-off
 seeds most blow-ups, so that their times are claimed as intervals.
 """
 

@@ -15,6 +15,22 @@ from primer.checks import instance
 from primer.view.page.atlas import Atlas
 
 _HERE = Path(__file__).parent
+_CLOSED = (
+    " At a base state of your own the growth is computed here, from the coefficients of the characteristic polynomial, "
+    "to a millionth."
+)
+_SEEDED = (
+    " Most blow-ups are seeded by round-off, by the last bit of the computer that made the page: another one finds "
+    "slightly other times."
+)
+_OWN = """<section aria-label="A base state of your own" id="own">
+<h2>A base state of your own</h2>
+<p>The growth of the same equations, from their characteristic polynomial, at the numbers that you type.</p>
+<div class="controls" id="own-numbers"></div>
+<div class="plots"><figure aria-labelledby="own-title"><h2 id="own-title">growth of the frozen equations</h2>
+<div class="plot" id="own-plot"></div></figure></div>
+<p id="own-said" role="status"></p>
+</section>"""
 
 
 @dataclass(frozen=True)
@@ -29,9 +45,10 @@ def save_page(page, path):
     Path(path).write_text(page.html, encoding="utf-8", newline="\n")
 
 
-def explorer_page(atlas, title, lead, begin=None, presets=None):
+def explorer_page(atlas, title, lead, begin=None, presets=None, closed=()):
     """The page of an :class:`primer.view.page.atlas.Atlas`, which begins with the state ``begin``.
 
+    ``closed`` are the closed forms (``primer.view.page.closed``) of the places of the first shelf, if there are any.
     ``lead`` is HTML; ``presets`` maps names to states, each a dict name -> text of a place; what is left out stays as
     it is.
 
@@ -54,6 +71,7 @@ def explorer_page(atlas, title, lead, begin=None, presets=None):
         "panels": list(map(json.loads, atlas.panels)),
         "parts": list(map(json.loads, atlas.parts)),
         "arrays": atlas.arrays,
+        "closed": closed,
     }
     return Page(
         Template((_HERE / "page.html").read_text(encoding="utf-8")).substitute(
@@ -65,7 +83,9 @@ def explorer_page(atlas, title, lead, begin=None, presets=None):
             presets="\n".join(_button(atlas, name, state) for name, state in (presets or {}).items()),
             plots="\n".join(map(_plot, range(len(atlas.states[0][1])))),
             count=f"{len(atlas.states):,}",
-            closed="",
+            closed=_CLOSED if closed else "",
+            seeded=_SEEDED if any(one.name == "t" for one in atlas.shelves) else "",
+            own=_OWN if closed else "",
             version=__version__,
             data=_embedded(data),
         )

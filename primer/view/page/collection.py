@@ -6,6 +6,7 @@ from primer.view.explorers import BaseStateExplorer, HeatExplorer, PDEExplorer, 
 from primer.view.explorers.state import defaults, read_state
 from primer.view.page import explorer_page
 from primer.view.page.atlas import Shelf, atlas, shelf
+from primer.view.page.closed import closed_form
 
 #: Explorer -> (name of its page, title, what a reader is told first, as HTML).
 PAGES = {
@@ -98,7 +99,8 @@ def page(made):
     explorer = made.explorer
     _, title, lead = PAGES[explorer]
     if explorer is PDEExplorer:
-        return explorer_page(made, title, lead, {"equation": "toy, u < 0", "n": "64"})
+        closed = [closed_form(**said) for _, said in made.shelves[0].places]
+        return explorer_page(made, title, lead, {"equation": "toy, u < 0", "n": "64"}, closed=closed)
     presets = {name: state for name, text in _presets(explorer) if (state := _on_shelf(explorer, text)) is not None}
     return explorer_page(made, title, lead, _on_shelf(explorer, ""), presets)
 

@@ -1,4 +1,5 @@
-// Looks up the state that the reader asks for, and draws what was recorded of it. No equation stands here.
+// Looks up the state that the reader asks for, and draws what was recorded of it. No equation stands here:
+// growth in closed form is that of the polynomial whose coefficients came with the page.
 "use strict";
 
 (() => {
@@ -162,6 +163,100 @@
     return `${frame.title}: ${what}. ${key.map((each) => each.text).join("; ")}`;
   }
 
+  /** What is drawn of each picture, for those who check: lines as lists of numbers. */
+  window.primerShown = () => state()[1].map((place) => data.panels[place][1].map((one) => data.parts[one])
+    .filter((part) => part.kind === "line").map((part) => [Array.from(numbers(part.x)), Array.from(numbers(part.y))]));
+
+  // ---- growth in closed form, where the page has the coefficients of a polynomial
+
+  const times = (a, b) => [a[0] * b[0] - a[1] * b[1], a[0] * b[1] + a[1] * b[0]];
+  const over = (a, b) => { const s = b[0] * b[0] + b[1] * b[1]; return [(a[0] * b[0] + a[1] * b[1]) / s, (a[1] * b[0] - a[0] * b[1]) / s]; };
+
+  /** Coefficients of the powers of lambda, the constant one first. */
+  function coefficients(form, wave, values) {
+    const found = [], numbers = [...wave, ...values];
+    for (const [re, im, power, ...powers] of form.terms) {
+      const size = powers.reduce((product, p, k) => product * numbers[k] ** p, 1);
+      while (found.length <= power) found.push([0, 0]);
+      found[power] = [found[power][0] + re * size, found[power][1] + im * size];
+    }
+    while (found.length > 1 && found.at(-1)[0] === 0 && found.at(-1)[1] === 0) found.pop();
+    return found;
+  }
+
+  /** All roots, by Ehrlich and Aberth's iteration. */
+  function roots(c) {
+    const n = c.length - 1;
+    if (n < 1) return [];
+    const size = (z) => Math.hypot(z[0], z[1]), lead = size(c[n]);
+    const r = Math.max(...c.slice(0, n).map((each, k) => (size(each) / lead) ** (1 / (n - k)))) || 1;
+    const z = Array.from({ length: n }, (_, k) => [r * Math.cos((2 * Math.PI * k) / n + 0.4), r * Math.sin((2 * Math.PI * k) / n + 0.4)]);
+    for (let step = 0; step < 200; step++) {
+      let moved = 0;
+      for (let k = 0; k < n; k++) {
+        let p = c[n], slope = [0, 0];
+        for (let j = n - 1; j >= 0; j--) {
+          slope = times(slope, z[k]); slope = [slope[0] + p[0], slope[1] + p[1]];
+          p = times(p, z[k]); p = [p[0] + c[j][0], p[1] + c[j][1]];
+        }
+        if (size(p) === 0) continue;
+        let pull = [0, 0];
+        for (let j = 0; j < n; j++) if (j !== k) {
+          const gap = [z[k][0] - z[j][0], z[k][1] - z[j][1]];
+          if (size(gap) > 0) { const one = over([1, 0], gap); pull = [pull[0] + one[0], pull[1] + one[1]]; }
+        }
+        const ratio = over(slope, p), change = over([1, 0], [ratio[0] - pull[0], ratio[1] - pull[1]]);
+        if (!Number.isFinite(change[0] + change[1])) continue;
+        z[k] = [z[k][0] - change[0], z[k][1] - change[1]];
+        moved = Math.max(moved, size(change) / (size(z[k]) || 1));
+      }
+      if (moved < 1e-15) break;
+    }
+    return z;
+  }
+
+  /** The largest real part of lambda at each |xi|, over the ways that waves may go; null where there is no root. */
+  function growth(form, values) {
+    return form.xi.map((k) => {
+      const real = form.ways.flatMap((way) => roots(coefficients(form, way.map((w) => w * k), values)))
+        .map(([re, im]) => (Math.abs(re) <= 1e-11 * Math.hypot(re, im) ? 0 : re));
+      return real.length ? Math.max(...real) : null;
+    });
+  }
+  window.primerGrowth = (k, values) => growth(data.closed[k], values); // for those who check
+
+  let own = -1;
+  function showOwn() {
+    if (!data.closed.length || own === at[0]) return;
+    own = at[0];
+    const form = data.closed[own], boxes = form.names.map((name, k) => {
+      const control = document.createElement("div"), label = document.createElement("label"), box = document.createElement("input");
+      control.className = "control";
+      Object.assign(box, { type: "text", inputMode: "decimal", id: `own-${name}`, value: form.values[k] });
+      label.htmlFor = box.id;
+      label.textContent = name;
+      box.addEventListener("change", draw);
+      control.append(label, box);
+      return control;
+    });
+    find("own-numbers").replaceChildren(...boxes);
+    function draw() {
+      const values = form.names.map((name) => (find(`own-${name}`).value.trim() === "" ? NaN : Number(find(`own-${name}`).value)));
+      if (!values.every(Number.isFinite)) return put(find("own-said"), "Each of these must be a number: the picture is of the numbers before.");
+      const rate = growth(form, values), frame = structuredClone(data.parts[data.panels[state()[1][0]][0]]), most = Math.max(...rate);
+      frame.y.limits = [Math.min(-2, Math.min(...rate) * 1.2), Math.max(2, most * 1.5)];
+      frame.y.ticks = [-1e12, -1e9, -1e6, -1e3, -1, 0, 1, 1e3, 1e6, 1e9, 1e12].filter((v) => v >= frame.y.limits[0] && v <= frame.y.limits[1]).map((v) => [v, v.toExponential(0).replace("e+0", v ? "" : "").replace("e+", "e")]);
+      const base = form.names.map((name, k) => `${name} = ${values[k]}`).join(", ");
+      const svg = node("svg", { viewBox: `0 0 ${W} ${H}`, role: "img", "aria-label": `Growth rate against wavenumber${base ? ` at ${base}` : ""}` }), put_ = places(frame);
+      axes(frame, put_, svg);
+      node("path", { d: path(form.xi.map(put_.x), rate.map(put_.y)), fill: "none", stroke: "#000", "stroke-width": 2 }, svg);
+      node("path", { d: `M${LEFT} ${put_.y(0)}H${W - RIGHT}`, stroke: "#666" }, svg);
+      find("own-plot").replaceChildren(svg);
+      put(find("own-said"), `${base ? `At ${base}: of` : "Of"} waves with |ξ| from ${form.xi[0]} to ${form.xi.at(-1).toFixed(0)}, the fastest ${most > 0 ? `grows like e^(${most.toPrecision(6)} t)` : "does not grow"}. What still shorter waves do is for primer verdict.`);
+    }
+    draw();
+  }
+
   // ---- the state, put on the page
 
   function put(element, text) {
@@ -181,6 +276,7 @@
     const [verdict, panels] = state();
     put(find("verdict"), data.verdicts[verdict]);
     panels.forEach((place, k) => panel(k, place));
+    showOwn();
     document.documentElement.dataset.state = at.join(" ");
   }
 
