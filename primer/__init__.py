@@ -21,6 +21,7 @@ _HOME = {
     "Compaction": "granular.compaction",
     "Coulomb": "granular.rheology",
     "Diagnosis": "study.diagnosis",
+    "EULER": "schemes.runge_kutta",
     "FOURIER": "schemes.fourier",
     "Friction": "granular.friction",
     "GridThreshold": "study.threshold",

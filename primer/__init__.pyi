@@ -47,6 +47,7 @@ from .schemes.reference import reference as reference
 from .schemes.run import Run as Run
 from .schemes.run import Seed as Seed
 from .schemes.run import Stop as Stop
+from .schemes.runge_kutta import EULER as EULER
 from .schemes.runge_kutta import RK4 as RK4
 from .schemes.runge_kutta import RK8 as RK8
 from .study.cost import cost_against_n as cost_against_n

@@ -172,8 +172,8 @@ TABLE = {
     "grid_threshold": (grid_threshold, {"a": 0.5, "eps": 0.01}, {
         "a": (*REAL, 1 - 1e-16), "eps": (*LEAST_0, 5e-324, 1e-300, 1e-14),
     }),
-    "stable_dt": (stable_dt, {"toy": TOY, "n": 8, "u": 1.0}, {
-        "toy": TOYS, "n": GRID, "u": (*(x for x in ARRAY if x is not None), []),
+    "stable_dt": (stable_dt, {"problem": TOY, "n": 8, "u": 1.0}, {
+        "problem": THING, "n": GRID, "u": (*(x for x in ARRAY if x is not None), []),
     }),
     "diagnose": (diagnose, {"toy": TOY, **SHORT}, {
         "toy": TOYS, **RUN, "n": (*GRID, 10**6), "seed": (*SEEDS, True, np.nan, np.inf, HUGE), "dtype": DTYPES,

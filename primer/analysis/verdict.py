@@ -11,14 +11,13 @@ import numpy as np
 
 from primer.analysis.directions import max_growth
 from primer.analysis.drift import BEYOND, worst_law
+from primer.analysis.each import each
 from primer.analysis.laws import NotPolynomialError, exact_symbol
-from primer.analysis.pencil import Pencil
 from primer.analysis.poles import of_law, on_curves
 from primer.analysis.puiseux import branches
 from primer.analysis.roots import DIGITS
 from primer.analysis.scales import scales
 from primer.analysis.supremum import along_line, exact_growth, in_plane, rate, ray
-from primer.analysis.symbol import Symbol
 
 
 class Kind(StrEnum):
@@ -74,25 +73,30 @@ class Verdict:
 
 
 def verdict(
-    pde: str | Symbol | Pencil,
+    pde: Any,
     /,
     *,
     at: dict[str, Any] | None = None,
     order: str = "full",
+    uniform: bool = False,
+    space: Any = None,
+    time: str | None = None,
     **parameters: Any,
-) -> Verdict:
+) -> Any:
     """Whether a PDE is linearly ill-posed, about a base state and frozen at a point: steps 1 to 3 of section A2.1.
 
     Parameters
     ----------
     pde : str, Symbol or Pencil
-        equations such as "u_t = -u_xx", in x or in x and y; ``at``, ``order`` and ``parameters``, for text only,
-        are those of :func:`primer.linearise`. A pencil's entries must be polynomials in xi, and its verdict is as good
+        equations such as "u_t = -u_xx", in x or in x and y, as people write them (``primer help equations``); ``at``,
+        ``order``, ``uniform``, ``space``, ``time`` and ``parameters``, for text only, are those of
+        :func:`primer.linearise`. A pencil's entries must be polynomials in xi, and its verdict is as good
         as they are in double precision.
 
     Returns
     -------
-    Verdict
+    Verdict; where values of ``at`` or parameters are arrays, an array of Verdicts of their shape, whose attributes
+    ``kind``, ``exponent``, ``coefficient``, ``bound``, ``unstable`` are arrays too
 
     Raises
     ------
@@ -104,8 +108,13 @@ def verdict(
     >>> [str(verdict(toy, at={"u": u, "v_xx": 0.3}, eps=0.01).kind) for u in (1.5, -0.5)]  # eq. (toy-pde)
     ['well-posed', 'ill-posed']
     """
+    options = {"order": order, "uniform": uniform, "space": space, "time": time}
+    return each(at, parameters, lambda at, parameters: _verdict(pde, at=at, **options, **parameters))
+
+
+def _verdict(pde, **arguments):
     try:
-        exact = exact_symbol(pde, at=at, order=order, **parameters)
+        exact = exact_symbol(pde, **arguments)
     except NotPolynomialError as problem:
         return _undecided(str(problem))
     found = _judged(exact)

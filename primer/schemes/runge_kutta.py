@@ -1,12 +1,13 @@
 """Explicit Runge-Kutta steps, as tables of numbers with their source.
 
-``RK4`` (Kutta 1901) and ``RK8`` (Dormand & Prince; Hairer, Norsett & Wanner (1993)) march y' = -y to t = 1:
+``EULER``, ``RK4`` (Kutta 1901) and ``RK8`` (Dormand & Prince; Hairer, Norsett & Wanner (1993)) march y' = -y to t = 1:
 
->>> for step in (RK4, RK8):
+>>> for step in (EULER, RK4, RK8):
 ...     y = np.array([1.0])
 ...     for _ in range(4):
 ...         y = step.step(lambda y: -y, y, 0.25)
 ...     print(step.name, step.order, f"{abs(y[0] - np.exp(-1)):.0e}")
+Euler 1 5e-02
 RK4 4 1e-05
 RK8 8 4e-13
 """
@@ -70,6 +71,9 @@ def _combine(y, dt, weights, slopes):
             y = y + dt * weight * k
     return y
 
+
+#: Forward Euler, the step of the paper's scheme. Of its region of stability, no half disc about 0 is a part.
+EULER = RungeKutta("Euler", 1, (), (1.0,), reach=0.0)
 
 #: The classical step of fourth order (Kutta 1901). The largest half disc in its region of stability has radius 2.6.
 RK4 = RungeKutta("RK4", 4, ((0.5,), (0, 0.5), (0, 0, 1.0)), (1 / 6, 1 / 3, 1 / 3, 1 / 6), reach=2.6)
