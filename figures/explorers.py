@@ -1,7 +1,7 @@
 """The five explorers as they open: what a reader moves in the course, each drawn by its own function.
 
-From above: the base state of the toy system, eq. (toy-pde), at a = 0.5 on 100 points; three grids side by side; the backward
-heat equation; the four granular laws; and any PDE that a reader types. Each answers in a sentence too.
+From above: the base state of the toy system, eq. (toy-pde), at a = 0.5 on 100 points; three grids side by side; the
+backward heat equation; the four granular laws; and any PDE that a reader types. Each answers in a sentence too.
 """
 
 import numpy as np
@@ -33,7 +33,9 @@ def compute():
 
 def numbers(result):
     # What is in a verdict may hang on round-off; how it begins does not.
-    return {explorer.__name__: same(answer.verdict.split(" ")[0], "as drawn") for explorer, (answer, _) in result.items()}
+    return {
+        explorer.__name__: same(answer.verdict.split(" ")[0], "as drawn") for explorer, (answer, _) in result.items()
+    }
 
 
 def draw(result):

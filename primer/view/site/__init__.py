@@ -14,7 +14,7 @@ import primer
 from primer.view.page import save_page
 from primer.view.page.collection import PAGES, page, states
 from primer.view.site.pages import claims_page, equations_page, framed, gallery, notebook_page, title_of
-from primer.view.site.words import possible, prose
+from primer.view.site.words import in_site, possible, prose
 
 _HERE = Path(__file__).parent
 _ROOT = Path(primer.__file__).resolve().parents[1]  # of a clone; in an installed package there are no figures
@@ -55,8 +55,8 @@ def _build(out, notebooks, explorers, progress):
         pages[here] = notebook_page(path, links, here, "../")
     pages |= {"equations.html": equations_page(links), "claims.html": claims_page(links)}
     if (guide := notebooks / "INSTRUCTORS.md").exists():
-        text = re.sub(r"\]\(([^)\s:]+)\.(?:ipynb|md)\)", r"](\1.html)", guide.read_text(encoding="utf-8"))
-        pages["INSTRUCTORS.html"] = framed("For instructors", prose(_in_site(text)), links, "INSTRUCTORS.html")
+        text = guide.read_text(encoding="utf-8")
+        pages["INSTRUCTORS.html"] = framed("For instructors", prose(in_site(text)), links, "INSTRUCTORS.html")
     if figures.is_dir():
         (out / "figures").mkdir(exist_ok=True)
         for path in (*figures.glob("*.svg"), *figures.glob("*.gif"), *figures.glob("*.png")):
@@ -92,7 +92,7 @@ def _index(readme, lessons, links):
     text = f"<h2>The course</h2><ul>{rows}</ul><h2>Live explorers</h2><ul>{live}</ul>"
     if not readme.exists():
         return framed("primer", "<h1>primer: ill-posed PDEs</h1>" + text, links, "index.html")
-    before, *after = re.split(r"(?=^## )", _in_site(readme.read_text(encoding="utf-8")), maxsplit=1, flags=re.M)
+    before, *after = re.split(r"(?=^## )", in_site(readme.read_text(encoding="utf-8")), maxsplit=1, flags=re.M)
     return framed("primer", prose(before) + text + prose("".join(after)), links, "index.html")
 
 
@@ -100,13 +100,3 @@ def _title(path):
     import nbformat
 
     return title_of(nbformat.read(path, as_version=4))
-
-
-def _in_site(text):
-    """Links of a page of the repository as links within the site; to what is not in the site, their text alone."""
-    text = re.sub(
-        r"(?<!!)\]\((?:notebooks/)?((?:solutions/)?\d\d_\w+|INSTRUCTORS)\.(?:ipynb|md|html)\)", r"](\1.html)", text
-    )
-    text = re.sub(r"\]\((?:\.\./)?figures/(\w+)\.svg\)", r"](figures.html#\1)", text)
-    text = re.sub(r"\]\((?:\.\./)?figures/explorer\.html\)", "](explore_base_state.html)", text)
-    return re.sub(r"(?<!!)\[([^\]\[]*)\]\((?!https?:|#|[\w/]+\.html|figures/)[^)]*\)", r"\1", text)

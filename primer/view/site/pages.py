@@ -9,7 +9,7 @@ from pathlib import Path
 from primer import __version__
 from primer.claims import claims
 from primer.view.page.collection import PAGES
-from primer.view.site.words import equations, numbered, prose
+from primer.view.site.words import equations, in_site, numbered, prose
 
 _HERE = Path(__file__).parent
 _NAMES = {explorer.__name__: (explorer, name, title) for explorer, (name, title, _) in PAGES.items()}
@@ -110,7 +110,7 @@ def live(text, root=""):
 
 def gallery(folder, links):
     """The figures with what they show and their numbers; ``folder`` holds the SVG, JSON and scripts."""
-    parts = ["<h1>The figures and their numbers</h1>"]
+    parts = [prose(in_site((folder / "README.md").read_text(encoding="utf-8")))]
     for path in sorted(folder.glob("*.svg")):
         words = _docstring(path.with_suffix(".py"))
         first, rest = words[0], "\n\n".join(words[1:])

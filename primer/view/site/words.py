@@ -79,3 +79,15 @@ def numbered(html, root=""):
 
     parts = re.split(r"(<math.*?</math>|<pre.*?</pre>|<code.*?</code>|<a .*?</a>|<[^>]+>)", html, flags=re.S)
     return "".join(part if part.startswith("<") else label.sub(link, part) for part in parts)
+
+
+def in_site(text):
+    """Links of the repository's Markdown as links within the site; where they lead out of it, their text alone."""
+    for old, new in (
+        (r"(?:notebooks/)?(?P<to>(?:solutions/)?\d\d_\w+|INSTRUCTORS)\.(?:ipynb|md)", r"\g<to>.html"),
+        (r"(?:figures/)?README\.md", "figures.html"),
+        (r"(?:figures/)?explorer\.html", "explore_base_state.html"),
+        (r"(?:figures/)?(?P<to>\w+)\.svg", r"figures.html#\g<to>"),
+    ):
+        text = re.sub(rf"(?<!!)(?P<text>\[[^\[\]]*\])\({old}\)", rf"\g<text>({new})", text)
+    return re.sub(r"(?<!!)\[([^\[\]]*)\]\((?!https?:|#|[\w/]+\.html)[^)]*\)", r"\1", text)
