@@ -54,9 +54,9 @@ def _build(out, notebooks, explorers, progress):
         here = f"solutions/{path.stem}.html"
         pages[here] = notebook_page(path, links, here, "../")
     pages |= {"equations.html": equations_page(links), "claims.html": claims_page(links)}
-    if (guide := notebooks / "INSTRUCTORS.md").exists():
-        text = guide.read_text(encoding="utf-8")
-        pages["INSTRUCTORS.html"] = framed("For instructors", prose(in_site(text)), links, "INSTRUCTORS.html")
+    for name, title in (("INSTRUCTORS", "For instructors"), ("CORRECTIONS", "Where the paper is corrected")):
+        text = in_site((notebooks / f"{name}.md").read_text(encoding="utf-8"))
+        pages[f"{name}.html"] = framed(title, prose(text), links, f"{name}.html")
     if figures.is_dir():
         (out / "figures").mkdir(exist_ok=True)
         for path in (*figures.glob("*.svg"), *figures.glob("*.gif"), *figures.glob("*.png")):

@@ -84,7 +84,7 @@ def numbered(html, root=""):
 def in_site(text):
     """Links of the repository's Markdown as links within the site; where they lead out of it, their text alone."""
     for old, new in (
-        (r"(?:notebooks/)?(?P<to>(?:solutions/)?\d\d_\w+|INSTRUCTORS)\.(?:ipynb|md)", r"\g<to>.html"),
+        (r"(?:notebooks/)?(?P<to>(?:solutions/)?\d\d_\w+|INSTRUCTORS|CORRECTIONS)\.(?:ipynb|md)", r"\g<to>.html"),
         (r"(?:figures/)?README\.md", "figures.html"),
         (r"(?:figures/)?explorer\.html", "explore_base_state.html"),
         (r"(?:figures/)?(?P<to>\w+)\.svg", r"figures.html#\g<to>"),
