@@ -183,7 +183,7 @@ def test_a_name_without_a_value_is_never_a_silent_zero():
         with pytest.raises(PDEError, match=r"^f has no value, and nothing is left of it .*: give f=\.\.\.\n"):
             linearise(text)
         assert linearise(text, f=3) == sp.Matrix([[-(xi**2)]])
-    assert linearise("u_t = u*u_max*u_0*u_xi") == sp.Matrix([[sp.prod(sp.symbols("u_max u_0 u_xi"))]])
+    assert linearise("u_t = u*u_max*u_0*u_in") == sp.Matrix([[sp.prod(sp.symbols("u_max u_0 u_in"))]])
 
 
 @pytest.mark.parametrize(("inside", "outside"), [("ϵ", "ε"), ("µ", "μ"), ("Ω", "Ω"), ("ｋ", "k")])
@@ -235,8 +235,8 @@ def test_a_base_state_where_the_equations_cannot_be_linearised(text, at):
     ("text", "problem", "column"),
     [
         ("u_t = u_xx +", r"expected a number, a name or '\('", 12),
-        ("u_t = 2u", "expected an operator", 7),
-        ("u_t = u v", "expected an operator", 8),
+        ("u_t = u 2", "expected an operator", 8),
+        ("u_t = u\n v", "expected an operator", 1),
         ("u_t", "expected '='", 3),
         ("u_t = u = 3", "an equation has one '='", 8),
         ("u_t = (u", r"expected '\)' to close this bracket", 6),
@@ -245,24 +245,22 @@ def test_a_base_state_where_the_equations_cannot_be_linearised(text, at):
         ("u_t = " + "f" * 31 + "(u)", f"'{'f' * 27}...' is not a known function", 6),
         ("u_t = u)", r"unexpected '\)'", 7),
         ("u_t = foo(u)", "'foo' is not a known function", 6),
-        ("u_t = 3(u)", "expected an operator", 7),
         ("u_t = u @ 2", "unexpected character '@'", 8),
         ("u_t = u.real", r"unexpected character '\.'", 7),
         ("u_t = __class__", "unexpected character '_'", 6),
         ("u_t = u__x", "two underscores", 6),
         ("u_t = u_ + v", "one at its end", 6),
-        ("u_t = u²", "unexpected character '²'", 7),
+        ("u_t = u₊", "unexpected character '₊'", 7),
         ("u_t = 1/0", "division by zero", 7),
         ("u_t = 1/(u - u)", "division by zero", 7),
         ("u_t = 0^-1", "division by zero", 7),
         ("u_t = log(0)*u", "not finite", 6),
         ("u_t = 9^9^9", "too large", 7),
-        ("u_t = u_xx + u_zz", "a third space variable", 13),
         ("u_t = x_x", "independent variable", 6),
         ("u_t = u_xxxxxxxxxxxxx", "a derivative of order 13", 6),
         ("u_t = 1e999*u", "larger exponent", 6),
         ("u_t = u_xx; v_t = ", "expected a number", 18),
-        ("u_t = u_xx\nv_t = 2v", "expected an operator", 7),
+        ("u_t = u_xx\nv_t = v 2", "expected an operator", 8),
     ],
 )
 def test_errors_show_the_place(text, problem, column):
@@ -277,8 +275,8 @@ def test_errors_show_the_place(text, problem, column):
 @pytest.mark.parametrize(
     ("allowed", "refused"),
     [
-        (";".join(f"{c}_t = {c}" for c in "abcdfg"), ";".join(f"{c}_t = {c}" for c in "abcdfgh")),
-        ("u_t = " + "+".join(["u"] * 299), "u_t = u" + "+" + "+".join(["u"] * 299)),  # 599 symbols, 601
+        (";".join(f"{c}_t = {c}" for c in "abcdfghklm"), ";".join(f"{c}_t = {c}" for c in "abcdfghklmn")),
+        ("u_t = " + "+".join(["u"] * 449), "u_t = u" + "+" + "+".join(["u"] * 449)),  # 899 symbols, 901
         ("u_t = " + "a" * 40 + "*u", "u_t = " + "a" * 41 + "*u"),
         ("u_t = " + "(" * 39 + "u" + ")" * 39, "u_t = " + "(" * 40 + "u" + ")" * 40),  # two levels each, of 80
         ("u_t = " + "-" * 78 + "u", "u_t = " + "-" * 79 + "u"),
@@ -364,7 +362,7 @@ def test_numbers_at_the_edge_of_what_can_be_represented():
     assert verdict("u_tt = 0; v = v_yt").kind == "well-posed"
 
 
-@pytest.mark.parametrize("text", [None, 3, b"u_t = u", ["u_t = u"]])
+@pytest.mark.parametrize("text", [None, 3, b"u_t = u", {"u_t": "u"}, [], [3], ["u_t = u", None]])
 def test_text_must_be_a_string(text):
     with pytest.raises(TypeError, match="string"):
         linearise(text)
@@ -438,7 +436,7 @@ NINES, AS = "9" * 60, "a" * 41
         ("u_t = 1e300*u", sp.Integer(10) ** 300),
         ("u_t = 1e-300*u", sp.Integer(10) ** -300),
         ("u_t = 2.5e-1i*u", sp.I / 4),
-        ("u_t = u_zeta*u_z0*k_z*k_xz*u", sp.prod(sp.symbols("u_zeta u_z0 k_z k_xz"))),  # parameters, all of them
+        ("u_t = u_zeta*u_z0*k_s*k_xs*u", sp.prod(sp.symbols("u_zeta u_z0 k_s k_xs"))),  # parameters, all of them
         ("u_t = (0^2 + 1)*u", 1),
         (f"u_t = {2**40 - 1}^100*u", sp.Integer(2**40 - 1) ** 100),
         (f"u_t = ({2**20 - 1}/{2**19 + 1})^100*u", sp.Rational(2**20 - 1, 2**19 + 1) ** 100),
@@ -462,8 +460,6 @@ def test_expressions_up_to_the_limits(text, slope):
         (f"u_t = {NINES}9*u", "a number with more digits, or a larger exponent, than is allowed", 6),
         ("u_t = 2*1e301*u", "a number with more digits, or a larger exponent, than is allowed", 8),
         ("u_t = 2*1E-301*u", "a number with more digits, or a larger exponent, than is allowed", 8),
-        ("u_t = u + u_xz", "a third space variable: there are x and y only", 10),
-        ("u_t = u + u_txyz", "a third space variable: there are x and y only", 10),
         ("u_t = u + t_x", "t is an independent variable and cannot be differentiated", 10),
         ("u_t = u_" + "x" * 13, "a derivative of order 13, above the 12 allowed", 6),
         ("u_t = (3*u_" + "x" * 12 + ")_y", "a derivative of order 13, above the 12 allowed", 24),
@@ -528,11 +524,19 @@ def linearise_by_hand(entry):
     return -parts[0] / parts[1]
 
 
+MISSING = "not given: base-state values u, v_xx (at={'u': ..., 'v_xx': ...})"
+UNIFORM = "give uniform=True if the base state is uniform (all its derivatives are 0)"
+
+
 @pytest.mark.parametrize(
     ("text", "arguments", "sentence"),
     [
-        (TOY, {}, "not given: base-state values u, v_xx (at={'u': ..., 'v_xx': ...}) and parameters eps=..."),
-        (TOY, {"eps": 1}, "not given: base-state values u, v_xx (at={'u': ..., 'v_xx': ...})"),
+        (
+            TOY,
+            {},
+            f"{UNIFORM}; not given: base-state values u, v_xx (at={{'u': ..., 'v_xx': ...}}) and parameters eps=...",
+        ),
+        (TOY, {"eps": 1}, f"{UNIFORM}; not given: base-state values u, v_xx (at={{'u': ..., 'v_xx': ...}})"),
         (TOY, {"at": AT}, "not given: parameters eps=..."),
         (TOY, {"order": "maximal"}, "not given: base-state values u (at={'u': ...}) and parameters eps=..."),
         ("u_t = b*u_xx + a*u", {}, "not given: parameters b=..., a=..."),

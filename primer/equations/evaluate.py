@@ -122,7 +122,17 @@ def operate(kind: str, what: Any, a: Any, b: Any = None) -> Any:
         return _guarded(kind, what)(a, b)
     if kind == "/":
         return a / b
-    return np.power(a, b) if kind == "^" else getattr(np, what)(a)
+    return np.power(a, b) if kind == "^" else _numpy(what)(a)
+
+
+@cache
+def _numpy(what):
+    """NumPy's function of this name in the language; erf is SciPy's."""
+    if what == "erf":
+        from scipy.special import erf
+
+        return erf
+    return getattr(np, {"asin": "arcsin", "acos": "arccos", "atan": "arctan"}.get(what, what))
 
 
 def power(a: Any, n: int) -> Any:

@@ -19,6 +19,7 @@ from primer.equations.terms import (
 )
 from primer.equations.text import PDEError, parse
 from primer.equations.unknowns import unknowns, uses
+from primer.equations.variables import MARK
 
 SIZE = 5_000  # the longest right-hand side; a text is at most 600 symbols, but solving may multiply them
 NOT_MARCHED = "such equations can be judged (primer.verdict), not marched"
@@ -46,8 +47,8 @@ def first_order(text, given=()):
     names = unknowns(used, len(equations), given)
     orders = {name: max((own + around).count("t") for base, own, around in used if base == name) for name in names}
     for name, order in orders.items():
-        if name in ("i", "pi", "x", "t"):
-            raise PDEError(f"{name} has a meaning of its own and cannot be an unknown")
+        if name.endswith(MARK) or name in ("x", "t"):
+            raise PDEError(f"{name.removesuffix(MARK)} has a meaning of its own and cannot be an unknown")
         if order == 0:
             raise PDEError(f"{name} has no time derivative, so that there is a constraint: {NOT_MARCHED}")
     solver = _Solver(text, orders)

@@ -89,7 +89,10 @@ def _call(node):
     inner = _latex(node.operands[0])[0]
     if node.value == "sqrt":
         return rf"\sqrt{{{inner}}}", _ATOM
-    return (rf"\left|{inner}\right|" if node.value == "abs" else rf"\{node.value}\left({inner}\right)"), _ATOM
+    if node.value == "abs":
+        return rf"\left|{inner}\right|", _ATOM
+    name = {"asin": r"\arcsin", "acos": r"\arccos", "atan": r"\arctan", "sign": r"\mathrm{sgn}", "erf": r"\mathrm{erf}"}
+    return rf"{name.get(node.value, f'{chr(92)}{node.value}')}\left({inner}\right)", _ATOM
 
 
 def _derivative(node):

@@ -159,6 +159,12 @@ def _sign(a, found):
     return (a > 0) * 1.0 - (a < 0) * 1.0
 
 
+def _gauss(a, found):
+    """2/sqrt(pi) exp(-a^2), in the numbers of a: pi is 4 atan(1)."""
+    root = operate("call", "sqrt", operate("call", "atan", 1 + 0 * a))
+    return operate("/", None, operate("call", "exp", -a * a), root)
+
+
 _CALLS = {
     "sin": lambda a, f: operate("call", "cos", a),
     "cos": lambda a, f: -operate("call", "sin", a),
@@ -170,4 +176,9 @@ _CALLS = {
     "cosh": lambda a, f: operate("call", "sinh", a),
     "tanh": lambda a, f: 1 - f * f,
     "abs": _sign,
+    "sign": lambda a, f: 0 * _sign(a, f),
+    "asin": lambda a, f: operate("/", None, 1 + 0 * a, operate("call", "sqrt", 1 - a * a)),
+    "acos": lambda a, f: operate("/", None, -1 + 0 * a, operate("call", "sqrt", 1 - a * a)),
+    "atan": lambda a, f: operate("/", None, 1 + 0 * a, 1 + a * a),
+    "erf": _gauss,
 }

@@ -5,7 +5,7 @@ A differentiated bracket is differentiated as it is written: its values on the g
 """
 
 from dataclasses import dataclass, field
-from functools import lru_cache
+from functools import cached_property, lru_cache
 
 from primer.equations.evolution import first_order
 from primer.equations.terms import Term
@@ -58,7 +58,7 @@ class Evolution:
         """Whether t does not occur."""
         return not self.clocks
 
-    @property
+    @cached_property
     def orders(self) -> tuple[int, ...]:
         """The orders of the x-derivatives that are taken, ascending."""
         return tuple(sorted({m for stage in self.stages for _, m in stage.slots if m}))

@@ -1,8 +1,9 @@
 """Which names of a text are its unknowns: those that are differentiated, and where these are too few, who else."""
 
-from primer.equations.text import PDEError, split_name
+from primer.equations.error import PDEError
+from primer.equations.tree import split_name
 
-VARIABLES = ("x", "y", "t")
+VARIABLES = ("x", "y", "z", "t")
 
 
 def uses(equations, constants=()):
@@ -24,8 +25,11 @@ def _collect(node, around, constants, found):
         _collect(operand, around + (node.value if node.kind == "derivative" else ""), constants, found)
 
 
-def unknowns(uses, number, given):
-    """The names differentiated; and, where those are too few, names in differentiated brackets or in constraints."""
+def unknowns(uses, number, given, outside=str):
+    """The names differentiated; and, where those are too few, names in differentiated brackets or in constraints.
+
+    ``outside(name)`` is what the text calls a name, for the errors.
+    """
     order = [name for name in dict.fromkeys(base for base, _, _ in uses) if name not in VARIABLES]
     evolved = {base for base, own, around in uses if "t" in own + around}
     order.sort(key=lambda name: name not in evolved)
@@ -45,5 +49,5 @@ def unknowns(uses, number, given):
         raise PDEError("nothing is differentiated: derivatives are written u_t, v_xx, (u*v)_x")
     raise PDEError(
         f"{number} equation{'s' * (number > 1)} for {len(found)} unknown{'s' * (len(found) > 1)} "
-        f"({', '.join(found)}): there must be as many of one as of the other"
+        f"({', '.join(map(outside, found))}): there must be as many of one as of the other"
     )

@@ -74,6 +74,9 @@ class BackwardHeat:
         (u_t,) = tendencies(self.evolution, {}, state, derivative, _NOTHING)
         return (u_t,)
 
+    def _known(self, _):
+        return _NOTHING
+
     @property
     def evolution(self) -> Evolution:
         """The right-hand side as stages, made from the text."""

@@ -87,7 +87,9 @@ class PDE:
         put("end", None if steady is None else data("steady", self.fields, steady))
         self._check_names()
         grid = -self.period / 2 + self.period / 8 * np.arange(8)
-        put("is_complex", any(np.iscomplexobj(f) for f in (*self.initial(grid), *self.steady(grid), *self._numbers())))
+        self._numbers()
+        given = (*self.initial(grid), *self.steady(grid), *(number for _, number in values))
+        put("is_complex", self.evolution.imaginary or any(map(np.iscomplexobj, given)))
 
     def _check_names(self):
         given = dict(self.values)

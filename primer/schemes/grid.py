@@ -53,10 +53,18 @@ class Stencil:
             ghosts = np.concatenate((f[..., n - reach :], f, f[..., :reach]), axis=-1)
         else:  # more than once around
             ghosts = f[..., np.arange(-reach, n + reach) % n]
-        total: Any = 0
+        if f.dtype.kind != "c":
+            return self._sum(ghosts, reach, n, h)
+        found = np.empty_like(f)  # real factors are for both parts
+        found.real, found.imag = (self._sum(part, reach, n, h) for part in (ghosts.real, ghosts.imag))
+        return found
+
+    def _sum(self, ghosts, reach, n, h):
+        total: Any = None
         for offset, weight in zip(self.offsets, self.weights, strict=True):
             term = ghosts[..., reach + offset : reach + offset + n]
-            total = total + (term if weight == 1 else weight * term)
+            term = term if weight == 1 else weight * term
+            total = term if total is None else total + term
         return total * self.scale(h)
 
     def multiplier(self, xi: ArrayLike, h: float) -> Numbers:

@@ -11,11 +11,13 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from primer.checks import affordable, instance, real, shown
-from primer.compiled import compiled
+from primer.compiled import able
 from primer.problems.toy import Toy
-from primer.schemes.fourier import MATRIX_UP_TO, Fourier
+from primer.schemes.block import of_text
+from primer.schemes.fourier import Fourier
 from primer.schemes.grid import CENTRAL, Grid, Stencil
-from primer.schemes.marching import a_problem, grid_of, orders_of, slope_of
+from primer.schemes.lines_block import compilable, marched
+from primer.schemes.marching import a_problem, fields_of, grid_of, orders_of, slope_of
 from primer.schemes.runge_kutta import RK4, RungeKutta
 from primer.types import Problem
 
@@ -150,21 +152,18 @@ def trace(problem, n, space, time, dt, counts):
     (states, depth); states that a blow-up kept from being reached are NaN, and depth (m,) is the integral over time of
     max(0, -min of the first field) up to there, infinite where not reached
     """
-    start = _start if type(problem) is Toy else _start.__wrapped__  # other problems need not be hashable
-    x, y, forcing, limit = start(problem, n)
+    start = _start if of_text(problem) else _start.__wrapped__  # problems of one's own need not be hashable
+    x, y, limit = start(problem, n)
     states, depth = np.full((len(dt), *y.shape), np.nan, dtype=y.dtype), np.full(len(dt), np.inf)
-    loops = compiled("primer.schemes.lines_kernel") if type(problem) is Toy else None
-    tables = _tables(n, space[1], space[2])
-    if loops is None or tables is None:
-        _interpreted(problem, x, y, space, time, dt, counts, limit, states, depth)
-    else:
-        loops.march(y.copy(), forcing, problem.eps, *tables, *time.table, dt, counts, limit, states, depth)
+    begin = np.concatenate([[0.0], np.cumsum(np.multiply(dt, counts))[:-1]])
+    march = marched if compilable(problem, n, space) and able() else _interpreted
+    march(problem, x, y, space, time, dt, begin, counts, limit, states, depth)
     return states, depth
 
 
-def _interpreted(problem, x, y, space, time, dt, counts, limit, states, depth):
+def _interpreted(problem, x, y, space, time, dt, begin, counts, limit, states, depth):
     """The same march in NumPy, for any problem."""
-    h, deep, t = grid_of(problem, x.size).h, 0.0, 0.0
+    h, deep, lost = grid_of(problem, x.size).h, 0.0, np.zeros_like(y)
     tendency = slope_of(problem, x, lambda f, m: space[m](f, h))
 
     def slope(y, t):
@@ -177,33 +176,15 @@ def _interpreted(problem, x, y, space, time, dt, counts, limit, states, depth):
         for m, count in enumerate(counts):
             for step in range(count):
                 deep -= dt[m] * min(0.0, y[0].real.min())
-                y = time.step(slope, y, dt[m], t + step * dt[m])
+                y, lost = time.exact_step(slope, y, lost, dt[m], begin[m] + step * dt[m])
                 if not np.abs(y).max() <= limit:
                     return
-            t += count * dt[m]
             states[m], depth[m] = y, deep
 
 
 @lru_cache(maxsize=64)
 def _start(problem, n):
-    """(x, state at t = 0, forcing, size at which a march is given up)."""
+    """(x, state at t = 0, size at which a march is given up)."""
     x = grid_of(problem, n).x
-    y = np.array(problem.initial(x), dtype=complex if getattr(problem, "is_complex", False) else None)
-    return x, y, problem.forcing(x), _BLOWN_UP * (1 + float(np.abs(y).max()))
-
-
-@lru_cache(maxsize=64)
-def _tables(n, *derivatives):
-    """What the compiled loop needs to know of the derivatives, or None where NumPy does better."""
-    h = 2 * math.pi / n
-    if not all(isinstance(d, Stencil) for d in derivatives):
-        return tuple(d.matrix(n) for d in derivatives) if n <= MATRIX_UP_TO else None
-    reach = max(abs(o) for d in derivatives for o in d.offsets)
-    if reach > n:
-        return None
-    tables = np.zeros((len(derivatives), 2 * reach + 1, 1))
-    for table, d in zip(tables, derivatives, strict=True):
-        for offset, weight in zip(d.offsets, d.weights, strict=True):
-            table[reach + offset, 0] = weight * d.scale(h)
-    tables.flags.writeable = False  # as the matrices: numba compiles another loop for writable arrays
-    return tuple(tables)
+    y = np.array(fields_of(problem, "initial", x), dtype=complex if getattr(problem, "is_complex", False) else None)
+    return x, y, _BLOWN_UP * (1 + float(np.abs(y).max()))

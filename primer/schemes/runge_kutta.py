@@ -58,11 +58,23 @@ class RungeKutta:
 
     def step(self, f: Callable, y: np.ndarray, dt: float, t: float | None = None) -> np.ndarray:
         """The state one step dt after the array y, where ``f(y)`` gives y'; or, where t is given, ``f(y, t)``."""
+        return _combine(y, dt, self.b, self._slopes(f, y, dt, t))
+
+    def exact_step(self, f: Callable, y: np.ndarray, lost: np.ndarray, dt: float, t: float | None = None) -> tuple:
+        """The same by Kahan's sum: (state, what rounding took from it), where ``lost`` was so taken in the step before.
+
+        So rounding does not pile up in a hundred thousand steps.
+        """
+        change = _combine(lost, dt, self.b, self._slopes(f, y, dt, t))
+        new = y + change
+        return new, change - (new - y)
+
+    def _slopes(self, f, y, dt, t):
         slopes: list[np.ndarray] = []
         for row, node in zip(((), *self.rows), self.nodes, strict=True):
             at = _combine(y, dt, row, slopes)
             slopes.append(f(at) if t is None else f(at, t + node * dt))
-        return _combine(y, dt, self.b, slopes)
+        return slopes
 
 
 def _combine(y, dt, weights, slopes):
