@@ -43,6 +43,7 @@ _HOME = {
     "cost_against_n": "study.cost",
     "critical_state": "granular.criteria",
     "diagnose": "study.diagnosis",
+    "exact_march": "study.exact",
     "ftcs": "schemes.ftcs",
     "ftcs_ensemble": "schemes.ensemble",
     "grid_threshold": "study.threshold",
