@@ -13,7 +13,7 @@ from primer import Stop, Toy
 from primer.schemes.discrete import dist_floor
 from primer.study.refinement import refine
 from primer.view.movie import Movie
-from primer.view.style import ILL, STEADY, new_figure
+from primer.view.style import ILL, STEADY, legend_below, new_figure
 
 GRIDS, T_END = (30, 100, 200), 17.0
 FRAMES = np.round(np.arange(0, T_END + 0.05, 0.1), 1)
@@ -45,7 +45,7 @@ def draw(result):
         for run, colour, ls in zip(result.runs, COLOURS, STYLES, strict=True)
     ]
     dist.set(xlabel="t", ylabel="Dist", xlim=(0, T_END), ylim=(1e-3, 1e3))
-    dist.legend(loc="upper right")
+    legend_below(dist)
     clock = dist.axvline(0, color=STEADY, lw=1)
     axes[0, 0].set_title(f"N = {GRIDS[0]}, t = 0.0")
     figure.canvas.draw()
@@ -76,4 +76,5 @@ def _panel(ax, run, colour):
     if run.n == GRIDS[0]:
         ax.set_ylabel("u")
         ax.text(0, -1.45, "u < 0: ill posed", ha="center", fontsize=8.5)
+        ax.text(0, 2.05, "grey: $a - \\cos x$", ha="center", fontsize=8.5, color=STEADY)
     return line

@@ -54,10 +54,13 @@ def draw(rows):
     for row, (law, c, noises) in zip(axes, rows, strict=True):
         name, color, ls = look(law)
         for ax, noise in zip(row, noises, strict=False):
-            draw_noise(ax, noise)
+            image = draw_noise(ax, noise)
         row[0].set_ylabel(name, fontsize=12)
         draw_measured(row[3], noises, c, color, ls)
         row[3].set_ylabel(r"growth rate$\,/\,\|D\|$", fontsize=8.5)
+    figure.colorbar(
+        image, ax=axes, location="bottom", fraction=0.02, aspect=50, label="$u_1$ over its largest value in the picture"
+    )
     axes[0, 3].set_title("measured (markers), symbol (line)", fontsize=9.5)
     axes[0, 3].legend(loc="upper left", fontsize=8, handletextpad=0.2)
     text = "$|\\xi|\\, d$; dotted: where each\ngrid ends. Below the line: no\nmode in the best direction"

@@ -31,7 +31,7 @@ def draw(law):
         title=f"The constitutive relations in pictures   (paper: Figures 1 to 3; CSSM, $\\mu = {law.mu:.3f}$)",
     )
     draw_stress_axes(axes[0, 0])
-    axes[0, 0].set_title("(1a) stress axes, compression inwards")
+    axes[0, 0].set_title("(1a) stress axes, compression inwards", pad=18)
     draw_deformation(axes[0, 1])
     axes[0, 1].set_title("(1b) a deformation aligned with it")
     draw_base_flow(axes[0, 2])

@@ -11,13 +11,13 @@ from sidecar import close, within
 
 from primer import blow_up_map, grid_threshold
 from primer.view.grid_dependence import draw_map, draw_mode
-from primer.view.style import new_figure
+from primer.view.style import legend_below, new_figure
 
 
 def compute():
     return {
         "map": blow_up_map(np.linspace(-1, 1.5, 36), np.arange(10, 130, 3), progress=False),
-        "thresholds": [grid_threshold(a, 0.01) for a in np.linspace(-1, 0.9, 39)],
+        "thresholds": [grid_threshold(a, 0.01) for a in np.linspace(-1, 0.94, 39)],
         "paper": grid_threshold(0.5, 0.01),
     }
 
@@ -41,14 +41,14 @@ def numbers(result):
 
 def draw(result):
     figure, (left, right) = new_figure(
-        width=10.0, height=4.4, width_ratios=(1.5, 1),
+        width=10.0, height=4.8, width_ratios=(1.5, 1),
         title="Grid dependence of the toy system, ε = 0.01: blow-up by t = 100",
     )  # fmt: skip
     image = draw_map(left, result["map"], result["thresholds"])
     left.set(title="(a) measured, and the thresholds")
-    left.legend(loc="upper left", fontsize=8, ncols=2)
+    legend_below(left, fontsize=8)
     figure.colorbar(image, ax=left, label="time of the blow-up")
     mode = result["paper"].mode
     draw_mode(right, mode)
-    right.set(title=f"(b) the mode at N = {mode.n}: {mode.parity}")
+    right.set(title=f"(b) a = 0.5, N = {mode.n}: the mode, {mode.parity}")
     return figure

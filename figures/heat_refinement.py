@@ -10,7 +10,7 @@ import numpy as np
 from sidecar import close, within
 
 from primer.study.refinement import heat_onset
-from primer.view.style import STEADY, new_figure, ticks
+from primer.view.style import STEADY, legend_below, new_figure, ticks
 
 GRIDS = (16, 32, 64, 128)
 
@@ -45,7 +45,7 @@ def draw(result):
     left.set(
         title="(a) every grid holds on, then lets go", xlabel="t", ylabel="max |u|", xlim=(5e-3, 2), ylim=(0.5, 100)
     )
-    left.legend()
+    legend_below(left, ncols=3)
     h = free.refinement.h
     right.loglog(h, free.t, "o", label="from round-off")
     right.loglog(h, seeded.t, "s", mfc="none", label="from a sawtooth of 10⁻¹²")
@@ -58,5 +58,5 @@ def draw(result):
     right.set_xlim(h.min() / 1.8, h.max() * 1.3)
     ticks(right.xaxis, [0.05, 0.1, 0.2, 0.4])
     right.set_ylim(0.01, 8)
-    right.legend(loc="upper left")
+    legend_below(right, ncols=1)
     return figure

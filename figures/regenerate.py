@@ -43,9 +43,9 @@ def main(arguments=None):
             print(f"{name:18s} {import_module(name).__doc__.splitlines()[0]}{note}")
         return 0
     job, tell = (_check, "checked") if options.check else (_make, "written")
-    problems = []
+    problems, kept = [], []
     with ProcessPoolExecutor(min(options.jobs, len(options.names)), initializer=_as_a_worker) as pool:
-        waiting = {pool.submit(job, name, options.out, options.formats): name for name in options.names}
+        waiting = {pool.submit(job, name, options.out, options.formats, options.redraw): name for name in options.names}
         try:
             with tqdm(total=len(waiting), unit="figure", disable=None) as bar:
                 for done in as_completed(waiting):
@@ -53,7 +53,9 @@ def main(arguments=None):
                     if isinstance(error := done.exception(), Exception):  # a full disk, a worker that died
                         problems.append(f"{name}: not {tell} ({type(error).__name__}: {error})")
                     else:
-                        problems += [f"{name}: {sentence}" for sentence in done.result()]
+                        sentences, held = done.result()
+                        problems += [f"{name}: {sentence}" for sentence in sentences]
+                        kept += [name] * held
                     bar.set_postfix_str(name)
                     bar.update()
         except KeyboardInterrupt:
@@ -63,7 +65,9 @@ def main(arguments=None):
     for sentence in sorted(problems):
         print(sentence, file=sys.stderr)
     good = len(options.names) - len({sentence.split(":")[0] for sentence in problems})
-    print(f"{good} of {len(options.names)} figures {tell} in {options.out}")
+    print(f"{good} of {len(options.names)} figures {'up to date' if kept else tell} in {options.out}")
+    if kept:
+        print(f"{len(kept)} were there, their numbers hold, and they are as they were: --redraw draws them anew")
     return 1 if problems else 0
 
 
@@ -77,30 +81,45 @@ def _as_a_worker():
     Thread(target=lambda: (parent_process().join(), os._exit(1)), daemon=True).start()
 
 
-def _make(name, out, formats):
-    """Compute one figure; write its pictures and numbers aside, then put them in place."""
+def _make(name, out, formats, redraw):
+    """Compute one figure; write its pictures and numbers aside, then put them in place.
+
+    What is there already, with numbers that hold, is left alone: another machine has other last digits. Returns
+    (sentences about what went wrong: none, whether all was left alone).
+    """
     script = import_module(name)
     result = script.compute()
+    numbers, formats = script.numbers(result), formats or _formats(name)[:1]
+    there = not redraw and not _drift(name, out, numbers)
+    formats = [ending for ending in formats if not (there and Path(out, f"{name}.{ending}").exists())]
     with TemporaryDirectory(dir=out, prefix=".regenerate-") as aside, styled():
-        formats = formats or _formats(name)[:1]
-        files = [Path(aside, f"{name}.json"), *(Path(aside, f"{name}.{ending}") for ending in formats)]
-        files[0].write_text(sidecar.dumps(script.numbers(result)), encoding="utf-8")
-        for picture in files[1:]:
+        files = [Path(aside, f"{name}.{ending}") for ending in formats]
+        for picture in files:
             drawn = script.draw(result)
-            {Movie: save_movie, Page: save_page}.get(type(drawn), save)(drawn, picture)
+            if (kind := type(drawn)) in (Movie, Page):
+                {Movie: save_movie, Page: save_page}[kind](drawn, picture)
+            else:
+                save(drawn, picture, script.__doc__)
+        if not there:
+            files.append(Path(aside, f"{name}.json"))
+            files[-1].write_text(sidecar.dumps(numbers), encoding="utf-8", newline="\n")
         for file in files:
             os.replace(file, Path(out, file.name))
-    return []
+    return [], not files
 
 
-def _check(name, out, formats):
-    """Compute one figure's numbers again; return a sentence for each that left the stored one."""
+def _check(name, out, formats, redraw):
+    """Compute one figure's numbers again; return a sentence for each that left the stored one, as ``_make`` does."""
+    script = import_module(name)
+    return _drift(name, out, script.numbers(script.compute())), False
+
+
+def _drift(name, out, fresh):
+    """A sentence for each of the fresh numbers that left the stored one."""
     try:
         stored = json.loads(Path(out, f"{name}.json").read_text(encoding="utf-8"))
     except (OSError, ValueError) as error:
         return [f"no stored numbers to compare with ({error})"]
-    script = import_module(name)
-    fresh = script.numbers(script.compute())
     try:
         return sidecar.drift(stored, fresh)
     except (AttributeError, KeyError, TypeError):
@@ -125,6 +144,7 @@ def _options(arguments):
     parser.add_argument(
         "--check", action="store_true", help="write nothing: recompute and compare with the stored JSON"
     )
+    parser.add_argument("--redraw", action="store_true", help="draw anew what is there with numbers that hold")
     parser.add_argument(
         "--jobs", type=int, default=os.cpu_count() or 1, metavar="N", help="processes (default: all cores)"
     )

@@ -56,7 +56,7 @@ def numbers(result):
 def draw(result):
     figure, (left, middle, right) = new_figure(1, 3, width=11.0, title="Round-off as the seed")
     draw_ladder(left, result["ladder"], result["foreseen"])
-    left.set(title="(a) digits buy time, N = 36")
+    left.set(title="(a) digits buy time, up to a point: N = 36")
     draw_seeds(middle, result["seeds"])
     middle.set(title="(b) stated seeds, N = 80")
     draw_last_bit(right, result["plain"], result["ulps"], result["mirror"])

@@ -1,21 +1,29 @@
 """The numbers beside each picture: how they are claimed, stored, and held to."""
 
 import json
+import math
 
 
 def close(value, why, rtol=0.0, atol=0.0):
     """A number that a recomputation must meet within atol + rtol |value|, and why so closely."""
-    return {"value": float(value), "rtol": rtol, "atol": atol, "why": why}
+    value = float(value)
+    return {"value": _rounded(value, atol + rtol * abs(value)), "rtol": rtol, "atol": atol, "why": why}
 
 
 def within(value, low, high, why):
     """A number of which only an interval can be claimed, and why: a recomputation must fall into it."""
-    return {"value": float(value), "low": low, "high": high, "why": why}
+    value = float(value)
+    return {"value": _rounded(value, 1e-2 * abs(value)), "low": low, "high": high, "why": why}
 
 
 def same(value, why):
     """A text or a whole number that a recomputation must repeat."""
     return {"value": str(value) if isinstance(value, str) else value, "why": why}
+
+
+def _rounded(value, slack):
+    """To one digit more than is claimed: further digits are of this machine alone."""
+    return round(value, 1 - math.floor(math.log10(slack))) if slack > 0 and math.isfinite(value) else value
 
 
 def dumps(numbers):

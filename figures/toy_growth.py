@@ -63,7 +63,7 @@ def draw(found):
         asymptote = law.coefficient * xi ** float(law.exponent)
         ax.plot(xi, asymptote, color="0.45", ls=":", lw=1.6, label="estimate (toy-eig)")
         ax.set(xscale="log", xlim=(1, 1e4))
-        ax.set_yscale("symlog", linthresh=1, linscale=0.5)
+        ax.set_yscale("asinh", linear_width=1)
     well.set(title="(a) u* = 0.5: well posed", ylim=(-3e3, 10))
     ill.set(title="(b) u* = $-$0.5: ill posed", ylim=(-3, 3e5))
     ticks(well.yaxis, [-1000, -100, -10, -1, 0, 1])

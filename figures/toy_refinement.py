@@ -12,7 +12,7 @@ from sidecar import close, within
 from primer import Seed, Toy
 from primer.study.refinement import refine
 from primer.view.runs import draw_dist
-from primer.view.style import new_figure, ticks
+from primer.view.style import legend_below, new_figure, ticks
 
 WELL, ILL = (25, 50, 100, 200), (60, 80, 100, 120, 150, 200, 300)
 
@@ -46,13 +46,13 @@ def numbers(result):
 
 def draw(result):
     well, ill, seeded = result["well"], result["ill"], result["seeded"]
-    figure, axes = new_figure(2, 2, height=6.4, title="Refining the grid of the toy system, ε = 0.01 (section A2.2.2)")
+    figure, axes = new_figure(2, 2, height=7.4, title="Refining the grid of the toy system, ε = 0.01 (section A2.2.2)")
     (well_dist, well_floor), (ill_dist, ill_time) = axes
     styles = ("-", "--", "-.", ":")
     for run, ls in zip(well.runs, styles, strict=True):
         draw_dist(well_dist, run, label=f"N = {run.n}", color=None, ls=ls)
     well_dist.set(title="(a) well posed, a = 1.5: each grid to its floor", xlim=(0, 40), ylim=(3e-5, 2))
-    well_dist.legend()
+    legend_below(well_dist, ncols=4)
     h = np.geomspace(well.h.min() / 1.6, well.h.max() * 1.3)
     well_floor.loglog(h, h / np.sin(h) - 1, color="0.4", lw=1, label="h/sin h $-$ 1 ≈ h²/6")
     well_floor.loglog(well.h, well.dist_end, "o", label="Dist at t = 100")
@@ -61,7 +61,7 @@ def draw(result):
             f"N = {n}", (2 * np.pi / n, d), xytext=(-8, 4), textcoords="offset points", ha="right", fontsize=8.5
         )
     well_floor.set(title="(b) the error falls as h²", xlabel="h", ylabel="Dist at the end")
-    well_floor.legend(loc="lower right")
+    legend_below(well_floor)
     ticks(well_floor.xaxis, [0.03, 0.1, 0.3])
     for run, ls in zip([run for run in ill.runs if run.n in (60, 80, 100, 200)], styles, strict=True):
         ill_dist.semilogy(run.t, run.dist, ls=ls, label=f"N = {run.n}")
@@ -69,13 +69,13 @@ def draw(result):
     ill_dist.set(
         title="(c) ill posed, a = 0.5: finer is sooner", xlabel="t", ylabel="Dist", xlim=(0, 70), ylim=(3e-4, 1e3)
     )
-    ill_dist.legend(loc="upper right")
+    legend_below(ill_dist, ncols=4)
     ill_time.loglog(ill.n, ill.t_blow_up, "o", label="from round-off")
     ill_time.loglog(seeded.n, seeded.t_blow_up, "s", mfc="none", label="from a seed of 10⁻⁶")
     ill_time.axvspan(50, 64, color="0.93", lw=0)
-    ill_time.text(51, 2, "N < 64:\nhidden", fontsize=8.5)
+    ill_time.text(56.5, 2, "N < 64: hidden", fontsize=8.5, rotation=90, ha="center")
     ill_time.set(title="(d) time of the blow-up", xlabel="N", ylabel="t", xlim=(50, 400))
     ticks(ill_time.xaxis, [60, 100, 200, 300])
     ticks(ill_time.yaxis, [2, 5, 10, 20, 50])
-    ill_time.legend()
+    legend_below(ill_time)
     return figure

@@ -18,7 +18,7 @@ from .analysis.symbolic import growth_rates as growth_rates
 from .analysis.symbolic import linearise as linearise
 from .analysis.verdict import Verdict as Verdict
 from .analysis.verdict import verdict as verdict
-from .equations.text import PDEError as PDEError
+from .equations.error import PDEError as PDEError
 from .granular.compaction import Compaction as Compaction
 from .granular.criteria import critical_state as critical_state
 from .granular.criteria import neutral_inertial_numbers as neutral_inertial_numbers
@@ -31,6 +31,7 @@ from .granular.rheology import Coulomb as Coulomb
 from .granular.rheology import IncompressibleMuI as IncompressibleMuI
 from .granular.state import BaseState as BaseState
 from .problems.heat import BackwardHeat as BackwardHeat
+from .problems.pde import PDE as PDE
 from .problems.toy import Toy as Toy
 from .schemes.ensemble import ftcs_ensemble as ftcs_ensemble
 from .schemes.fourier import FOURIER as FOURIER
@@ -46,6 +47,7 @@ from .schemes.reference import reference as reference
 from .schemes.run import Run as Run
 from .schemes.run import Seed as Seed
 from .schemes.run import Stop as Stop
+from .schemes.runge_kutta import EULER as EULER
 from .schemes.runge_kutta import RK4 as RK4
 from .schemes.runge_kutta import RK8 as RK8
 from .study.cost import cost_against_n as cost_against_n

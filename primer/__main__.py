@@ -12,6 +12,15 @@ from primer.claims import VERDICTS, claims
 from primer.claims import report as claims_report
 from primer.granular.command import add_command as add_granular
 from primer.lab import add_command as add_lab
+from primer.terminal import Parser, coloured
+
+_GREETING = """Welcome to primer: change one number, and watch a system of PDEs stop making sense.
+
+  primer lab my-course                       the course, in JupyterLab
+  primer verdict "u_t = u_xxx - u_xx"        is this PDE ill posed?
+  primer claims --verdict corrected          where the paper is corrected
+
+"""
 
 
 def main(arguments=None):
@@ -25,9 +34,10 @@ def main(arguments=None):
     parser = _parser()
     try:
         if not (sys.argv[1:] if arguments is None else arguments):
-            parser.exit(2, parser.format_help())
+            print(_GREETING + parser.format_help(), end="", flush=True)
+            return 0
         options = parser.parse_args(arguments)
-        print(options.command(options), flush=True)
+        print(coloured(options.command(options)), flush=True)
     except (ValueError, TypeError) as error:
         print(f"primer: {error}", file=sys.stderr)
         return 2
@@ -40,9 +50,7 @@ def main(arguments=None):
 
 
 def _parser():
-    parser = argparse.ArgumentParser(
-        prog="primer", description="A primer on ill-posed PDEs and grid-dependent computations.", allow_abbrev=False
-    )
+    parser = Parser(prog="primer", description="A primer on ill-posed PDEs and grid-dependent computations.")
     parser.add_argument("--version", action="version", version=f"primer {__version__}")
     commands = parser.add_subparsers(metavar="COMMAND", required=True)
     _add_verdict(commands)
@@ -88,11 +96,14 @@ def _verdict(options):
     if options.json:
         number = {"exponent": _plain(found.exponent), "exponent_text": str(found.exponent)}
         rest = {name: _plain(getattr(found, name)) for name in ("coefficient", "bound")}
-        rest |= {"direction": list(found.direction), "unstable": found.unstable, "reason": found.reason}
+        rest |= {"direction": list(found.direction), "grows": found.grows, "unstable": found.unstable}
+        rest |= {"reason": found.reason}
         return json.dumps({"kind": str(found.kind), **number, **rest}, indent=1)
-    rows = [("verdict", str(found.kind) + (", unstable" if found.unstable and math.isfinite(found.bound) else ""))]
-    if found.direction:
+    growing = (", unstable" if found.unstable else ", with growth") if 0 < found.bound < math.inf else ""
+    rows = [("verdict", str(found.kind) + growing)]
+    if math.isfinite(found.exponent):
         rows.append(("short waves", str(Law(Fraction(found.exponent), found.coefficient))))
+    if found.direction:
         rows.append(("bound", f"Re lambda <= {found.bound:.10g}" if math.isfinite(found.bound) else "none"))
     if len(found.direction) == 2:
         rows.append(("direction", "({:.6g}, {:.6g})".format(*found.direction)))

@@ -3,7 +3,7 @@
 import math
 import sys
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -27,10 +27,23 @@ class Arithmetic:
     epsilon: float
     largest: float
 
-    def grid(self, n):
-        """(h, x): the spacing 2 pi/n and the points -pi + j h in these numbers."""
-        h = 2 * self.pi / n
-        return self.number(h), (-self.pi + h * np.arange(n)).astype(self.dtype)
+    def grid(self, n, period=2 * math.pi):
+        """(h, x): the spacing h = period/n and the points -period/2 + j h in these numbers.
+
+        A period that is a whole multiple of pi in floats stands for that multiple of pi itself.
+        """
+        turns = round(period / math.pi)
+        length = turns * self.pi if turns * math.pi == period else self.number(period)
+        h = length / n
+        return self.number(h), (-length / 2 + h * np.arange(n)).astype(self.dtype)
+
+    @property
+    def complex(self):
+        """The complex numbers that go with these."""
+        if self.dtype == object:
+            return replace(self, number=self.number(0).context.mpc)
+        dtype = np.result_type(self.dtype, np.complex64)
+        return replace(self, dtype=dtype, number=dtype.type)
 
     def array(self, values):
         """A new array of these numbers."""

@@ -18,7 +18,11 @@ Multiplier: TypeAlias = Callable[[np.ndarray, int], Numbers]
 
 
 class Problem(Protocol):
-    """What can be marched: a ``Toy``, a ``BackwardHeat``, or any object with their methods."""
+    """What can be marched: a ``PDE``, a ``Toy``, a ``BackwardHeat``, or any object with these methods.
+
+    It may say more of itself: a ``period`` other than 2 pi; ``autonomous = False`` if its ``rhs`` takes the time as a
+    last argument; ``is_complex = True`` if its fields are complex.
+    """
 
     @property
     def fields(self) -> tuple[str, ...]:

@@ -1,7 +1,6 @@
 """What nobody should pass, and how it must be turned down: one sentence, at once, and nothing else."""
 
 import re
-import signal
 import sys
 import warnings
 from contextlib import contextmanager
@@ -9,6 +8,7 @@ from functools import partial
 from pathlib import Path
 
 import numpy as np
+from patience import alarm
 
 #: Wrong for any argument that wants a number; the rest of the world's mistakes follow by kind.
 HUGE = 10**400
@@ -25,7 +25,7 @@ ARRAY = (*ARRAY, [1.0, np.nan], [[np.inf]])
 FUNCTION = ("x", None, 3, 1j, [1.0], {})
 THING = ("x", "", None, 3, 1.5, True, 1j, [1.0], {}, object(), np.zeros(3))
 
-PATIENCE = 10.0  # seconds to say no in; a hang is minutes at least, so no machine is too slow
+PATIENCE = 60.0  # seconds to say no in; a hang is minutes at least, so no machine is too slow
 
 
 class Hung(BaseException):
@@ -35,20 +35,12 @@ class Hung(BaseException):
 @contextmanager
 def in_time(seconds=PATIENCE):
     """Stop the block, where the system knows alarms, when it takes longer: no answer is a failure too."""
-    if not hasattr(signal, "setitimer"):
-        yield
-        return
 
     def ring(*_):
         raise Hung(f"no answer within {seconds} s")
 
-    before = signal.signal(signal.SIGALRM, ring)
-    signal.setitimer(signal.ITIMER_REAL, seconds)
-    try:
+    with alarm(seconds, ring):
         yield
-    finally:
-        signal.setitimer(signal.ITIMER_REAL, 0)
-        signal.signal(signal.SIGALRM, before)
 
 
 @contextmanager

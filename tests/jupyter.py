@@ -147,7 +147,7 @@ class Box:
         self.page.wait_for_function(
             f"([box, role, said]) => {verdict}.getAttribute('role') === role && {verdict}.textContent.includes(said)",
             arg=[self.box.element_handle(), role, said],
-            timeout=20_000,
+            timeout=120_000,
         )
 
     def step(self, act):
@@ -157,7 +157,7 @@ class Box:
         self.page.wait_for_function(
             "([box, old]) => { const img = box.querySelector('img'); return img.src !== old && img.complete; }",
             arg=[self.box.element_handle(), old],
-            timeout=20_000,
+            timeout=120_000,
             polling=10,
         )
         return time.perf_counter() - start

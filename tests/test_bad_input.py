@@ -111,9 +111,9 @@ TABLE = {
     "Grid.derivative": (
         Grid(8).derivative,
         {"f": X, "m": 1},
-        {"f": (*ARRAY, np.zeros(7), np.zeros((8, 7)), []), "m": (*INTEGER, 0, 3, HUGE)},
+        {"f": (*ARRAY, np.zeros(7), np.zeros((8, 7)), []), "m": (*INTEGER, 0, 13, HUGE)},
     ),
-    "Grid.multiplier": (Grid(8).multiplier, {"xi": X, "m": 2}, {"xi": ARRAY, "m": (*INTEGER, 0, 3, HUGE)}),
+    "Grid.multiplier": (Grid(8).multiplier, {"xi": X, "m": 2}, {"xi": ARRAY, "m": (*INTEGER, 0, 13, HUGE)}),
     "Seed": (
         Seed,
         {"mode": 1, "amplitude": 1.0, "field": "u", "phase": 0.0},
@@ -172,8 +172,8 @@ TABLE = {
     "grid_threshold": (grid_threshold, {"a": 0.5, "eps": 0.01}, {
         "a": (*REAL, 1 - 1e-16), "eps": (*LEAST_0, 5e-324, 1e-300, 1e-14),
     }),
-    "stable_dt": (stable_dt, {"toy": TOY, "n": 8, "u": 1.0}, {
-        "toy": TOYS, "n": GRID, "u": (*(x for x in ARRAY if x is not None), []),
+    "stable_dt": (stable_dt, {"problem": TOY, "n": 8, "u": 1.0}, {
+        "problem": THING, "n": GRID, "u": (*(x for x in ARRAY if x is not None), []),
     }),
     "diagnose": (diagnose, {"toy": TOY, **SHORT}, {
         "toy": TOYS, **RUN, "n": (*GRID, 10**6), "seed": (*SEEDS, True, np.nan, np.inf, HUGE), "dtype": DTYPES,

@@ -2,6 +2,7 @@
 
 import math
 import os
+import subprocess
 import sys
 from concurrent.futures import BrokenExecutor, Executor, Future, ProcessPoolExecutor, ThreadPoolExecutor
 from multiprocessing import get_context
@@ -191,6 +192,22 @@ def test_a_grid_whose_worker_dies_is_named_and_the_others_kept(error):
     assert np.isnan(found.t_blow_up[:, 1]).all()
     assert np.isnan(found.t_seeded[:, 1]).all()
     assert np.isinf(found.t_seeded[:, [0, 2]]).all()
+
+
+@pytest.mark.slow
+def test_a_script_without_a_main_guard_is_told_what_to_do(tmp_path):
+    """Spawned workers read the script again: one sentence, not a map of nothing and their traces."""
+    script = tmp_path / "script.py"
+    script.write_text(
+        "import multiprocessing\nfrom concurrent.futures import ProcessPoolExecutor\nfrom primer import blow_up_map\n"
+        "pool = ProcessPoolExecutor(2, mp_context=multiprocessing.get_context('spawn'))\n"
+        "print(blow_up_map([0.5], [8, 10], t_end=1.0, executor=pool, progress=False).t_blow_up)\n",
+        encoding="utf-8",
+    )
+    done = subprocess.run([sys.executable, str(script)], capture_output=True, text=True, timeout=120)
+    assert done.returncode == 1
+    assert 'must stand under if __name__ == "__main__":' in done.stderr.splitlines()[-1]
+    assert done.stderr.count("Traceback") == 1
 
 
 def test_a_worker_that_is_interrupted_ends_the_sweep_and_what_waits_is_cancelled(monkeypatch):

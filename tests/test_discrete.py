@@ -159,15 +159,15 @@ def test_factors_come_with_the_largest_first():
 def test_a_grid_takes_fields_of_any_shape_and_names_what_it_cannot_take():
     grid = Grid(6)
     f = np.random.default_rng(0).normal(size=(2, 3, 6))
-    for m in (1, 2):
+    for m in (1, 2, 5):
         both = grid.derivative(f, m)
         np.testing.assert_array_equal(both[1, 2], grid.derivative(f[1, 2], m))
         wave = f + 1j * f[::-1]
-        np.testing.assert_allclose(grid.derivative(wave, m), both + 1j * both[::-1], atol=1e-13)
+        np.testing.assert_allclose(grid.derivative(wave, m), both + 1j * both[::-1], rtol=1e-12, atol=1e-12)
     np.testing.assert_array_equal(grid.derivative([0, 1, 0, 0, 0, 0], 1), np.array([1, 0, -1, 0, 0, 0]) / (2 * grid.h))
-    for m in (0, 3):
+    for m in (0, 13):
         for call in (lambda m=m: grid.derivative(f, m), lambda m=m: grid.multiplier(1.0, m)):
-            with pytest.raises(ValueError, match=f"m must be an integer >= 1 and <= 2, got {m}"):
+            with pytest.raises(ValueError, match=f"m must be an integer >= 1 and <= 12, got {m}"):
                 call()
     with pytest.raises(ValueError, match="xi must be finite"):
         grid.multiplier(np.inf, 1)

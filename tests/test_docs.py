@@ -59,7 +59,7 @@ def public_things():
     """(name, thing) for what the rooms define: functions and classes, and the classes' own functions."""
     for path in sorted(PACKAGE.rglob("*.py")):
         room = path.relative_to(PACKAGE).parts[0]
-        if room not in ("problems", "schemes", "analysis", "granular", "study") or path.stem == "__init__":
+        if room not in ("equations", "problems", "schemes", "analysis", "granular", "study") or path.stem == "__init__":
             continue
         module = importlib.import_module(".".join(path.relative_to(PACKAGE.parent).with_suffix("").parts))
         for name, thing in vars(module).items():

@@ -1,6 +1,7 @@
 """Guards the explorers: every control's corners answer, errors are said in words, states can be copied and restored."""
 
 import gc
+import html
 import io
 import itertools
 
@@ -43,7 +44,7 @@ def test_every_corner_of_the_controls_gives_a_picture_and_a_verdict(explorer):
     for corner in itertools.product(*map(ends, controls)):
         state = dict(zip((control.name for control in controls), corner, strict=True))
         shown.set(**state)
-        assert shown._image.layout.visibility == "visible", (state, shown.verdict)
+        assert 'role="status"' in shown._said.value, (state, shown.verdict)
         assert shown.verdict
         assert "nan" not in shown.verdict.split()
 
@@ -101,13 +102,54 @@ def test_what_is_wrong_is_said_and_can_be_put_right(explorer):
     for control in (c for c in explorer.controls if isinstance(c, Number)):
         box = shown._rows[control.name].widget.children[1]
         box.value = -(10**9)
-        assert control.name in shown.verdict
+        assert shown.verdict.startswith(f"{control.label} ({control.name}) must ")
         assert "got" in shown.verdict
         assert 'role="alert"' in shown._said.value
-        assert shown._image.layout.visibility == "hidden"
+        assert "primer-stale" in shown._image._dom_classes  # an old picture would mislead
         box.value = control.default
         assert shown.verdict == begun
-        assert shown._image.layout.visibility == "visible"
+        assert 'role="status"' in shown._said.value
+        assert "primer-stale" not in shown._image._dom_classes
+
+
+@every
+def test_looks_stay_on_their_sliders_and_whole_numbers_are_whole(explorer):
+    shown = explorer()
+    for control in explorer.looks:
+        box = shown._rows[control.name].widget.children[1]
+        for value in (control.low - 1, control.high * 1.01, float("nan")):
+            box.value = value
+            assert shown.verdict.startswith(f"{control.label} ({control.name}) must ")
+        box.value = control.default
+    for control in (c for c in explorer.controls if isinstance(c, Number) and c.whole):
+        shown._rows[control.name].widget.children[1].value = 65.5
+        assert shown.verdict.startswith(f"{control.label} ({control.name}) must be")
+        assert "got 65.5" in shown.verdict
+
+
+def test_a_number_box_takes_what_is_typed(monkeypatch):
+    """An IntText in a browser makes 655 of 65.5, so that the boxes of whole numbers are of the other kind."""
+    for control in (c for explorer in EXPLORERS for c in explorer.controls if isinstance(c, Number)):
+        assert type(control.build(lambda: None).widget.children[1]).__name__ == "FloatText"
+
+
+def test_playing_ends_where_the_run_does_and_begins_where_the_slider_is():
+    shown = explorers.BaseStateExplorer.from_state("a=0.5")
+    slider, _, play = shown._rows["t"].widget.children
+    assert play.max == int(np.ceil(2 * shown._answer.run.t_stop))
+    slider.value = 5.0
+    assert play.value == 10
+    shown.set(a=1.5, t=100.0)
+    assert (play.max, play.value) == (200, 0)
+
+
+@every
+def test_the_picture_has_alternative_text_that_changes_with_it(explorer):
+    shown = explorer()
+    for state in ("", list(explorer.presets.values())[-1]):
+        shown._go_to(state)
+        words = html.escape(shown.verdict)
+        assert f'alt="{words}"' in shown._image.value
 
 
 @pytest.mark.slow
@@ -145,7 +187,7 @@ def test_a_snapshot_says_what_it_shows(explorer):
     assert still.verdict == explorer().verdict
     assert still.verdict in data["text/plain"]
     assert metadata["image/png"]["alt"] == still.verdict
-    assert pixels(data["image/png"]).shape[1] > 700
+    assert pixels(still.png).shape[1] > 700
 
 
 @pytest.mark.slow

@@ -1,5 +1,6 @@
 """Guards the main job: figures regenerate byte for byte, their numbers are held to, bad calls cost nothing."""
 
+import importlib
 import json
 import os
 import shutil
@@ -14,6 +15,8 @@ sys.path.insert(0, str(FIGURES))
 
 import regenerate  # noqa: E402
 import sidecar  # noqa: E402
+
+from primer.view.style import styled  # noqa: E402
 
 
 def run(*arguments, **options):
@@ -50,6 +53,21 @@ def test_pictures_are_the_same_bytes_each_time(made):
     first, second = made
     for path in second.iterdir():
         assert path.read_bytes() == (first / path.name).read_bytes(), path.name
+
+
+@pytest.mark.parametrize("name", ["fig33", "hadamard_modes", "toy_growth", "abs_sin"])
+def test_no_legend_hides_data(name):
+    """Nothing that is drawn lies behind a legend."""
+    script = importlib.import_module(name)
+    with styled():
+        figure = script.draw(script.compute())
+        figure.canvas.draw()
+        for ax in figure.axes:
+            if ax.get_legend() is not None:
+                box, frame = ax.get_legend().get_window_extent(), ax.bbox
+                for line in ax.lines:
+                    xy = line.get_transform().transform(line.get_xydata())
+                    assert not any(box.contains(*p) and frame.contains(*p) for p in xy), (name, line.get_label())
 
 
 @pytest.mark.slow
@@ -118,6 +136,36 @@ def test_a_number_that_is_not_finite_is_not_stored():
         sidecar.dumps({"x": sidecar.close(float("inf"), "x")})
 
 
+def test_what_is_there_and_holds_is_left_alone(tmp_path, monkeypatch):
+    """Another machine has other last digits, and a clone stays clean; a number that left its claim is written."""
+    made = regenerate._make("abs_sin", tmp_path, ["svg"], redraw=False)
+    assert made == ([], False)
+    svg, stored = tmp_path / "abs_sin.svg", tmp_path / "abs_sin.json"
+    assert "<title" in svg.read_text(encoding="utf-8")
+    assert "<desc" in svg.read_text(encoding="utf-8")
+    svg.write_text("as it was")
+    assert regenerate._make("abs_sin", tmp_path, ["svg"], redraw=False) == ([], True)
+    assert svg.read_text() == "as it was"
+    assert regenerate._make("abs_sin", tmp_path, ["png"], redraw=False) == ([], False)
+    assert (tmp_path / "abs_sin.png").exists()
+    numbers = json.loads(stored.read_text(encoding="utf-8"))
+    numbers[next(iter(numbers))]["value"] = 1e9
+    stored.write_text(json.dumps(numbers))
+    assert regenerate._make("abs_sin", tmp_path, ["svg"], redraw=False) == ([], False)
+    assert svg.read_text(encoding="utf-8") != "as it was"
+    svg.write_text("as it was")
+    assert regenerate._make("abs_sin", tmp_path, ["svg"], redraw=True) == ([], False)
+    assert svg.read_text(encoding="utf-8") != "as it was"
+
+
+def test_numbers_are_rounded_to_one_digit_more_than_is_claimed():
+    assert sidecar.close(0.12345678, "x", rtol=1e-3)["value"] == 0.12346
+    assert sidecar.close(12.345678, "x", atol=0.1)["value"] == 12.35
+    assert sidecar.close(0.1 + 0.2, "x")["value"] == 0.1 + 0.2
+    assert sidecar.within(14.4876, 12, 16, "x")["value"] == 14.49
+    assert sidecar.close(0.0, "x", rtol=1e-3)["value"] == 0.0
+
+
 def test_what_is_asked_for_twice_is_made_once(tmp_path):
     options = regenerate._options(["fig31", "fig32", "fig31", "--formats", "svg,png,svg", "--out", str(tmp_path)])
     assert (options.names, options.formats) == (["fig31", "fig32"], ["svg", "png"])
@@ -128,12 +176,12 @@ def test_an_interrupted_or_failing_drawing_leaves_the_old_files(tmp_path, monkey
     for name, text in old.items():
         (tmp_path / name).write_text(text)
 
-    def fails(figure, path):
+    def fails(figure, path, words):
         raise KeyboardInterrupt
 
     monkeypatch.setattr(regenerate, "save", fails)
     with pytest.raises(KeyboardInterrupt):
-        regenerate._make("fig31", tmp_path, ["svg"])
+        regenerate._make("fig31", tmp_path, ["svg"], redraw=True)
     assert {path.name: path.read_text() for path in tmp_path.iterdir()} == old
 
 

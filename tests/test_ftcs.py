@@ -1,21 +1,25 @@
 """Guards the scheme: its bits, its orders, the paper's three runs, what a run records, and how it ends."""
 
 import math
+import os
 import signal
 import subprocess
 import sys
 import time
 import tracemalloc
+from pathlib import Path
 
 import numpy as np
 import pytest
 from scipy.linalg import expm
 from transcription import dist, march
 
+import primer
 import primer.schemes.ftcs as scheme
-from primer import BackwardHeat, Run, Seed, Stop, Toy, ftcs
-from primer.compiled import _say, compiled
+from primer import PDE, BackwardHeat, Run, Seed, Stop, Toy, ftcs, march_lines
+from primer.compiled import _compiler, able
 from primer.schemes import record
+from primer.schemes.block import tally
 from primer.schemes.discrete import dist_floor
 from primer.schemes.grid import Grid
 from primer.schemes.record import plan
@@ -23,10 +27,10 @@ from primer.schemes.record import plan
 
 @pytest.fixture(params=["compiled", "interpreted"])
 def path(request, monkeypatch):
-    """Both time loops: the compiled one, and NumPy's as where numba cannot be imported."""
+    """Both time loops: the compiled one, and NumPy's as where llvmlite cannot be imported."""
     compiled = request.param == "compiled"
     if compiled:
-        pytest.importorskip("numba")
+        pytest.importorskip("llvmlite")
     monkeypatch.setattr(scheme, "_compiles", lambda problem, asked: compiled)
     return request.param
 
@@ -76,7 +80,7 @@ def test_more_digits_blow_up_later():
 
 
 def test_both_loops_give_the_same_blow_up(monkeypatch):
-    pytest.importorskip("numba")
+    pytest.importorskip("llvmlite")
     runs = []
     for fast in (True, False):
         monkeypatch.setattr(scheme, "_compiles", lambda problem, asked, fast=fast: fast)
@@ -260,34 +264,75 @@ def test_ctrl_c_returns_what_was_recorded():
 
 @pytest.mark.slow
 @pytest.mark.skipif(sys.platform == "win32", reason="sends a POSIX signal")
-def test_ctrl_c_stops_the_compiled_loop():
+def test_ctrl_c_stops_the_compiled_loop(ctrl_c):
     code = (
-        "from primer import Toy, ftcs; ftcs(Toy(1.5), t_end=10); print('go', flush=True);"
-        "run = ftcs(Toy(1.5), t_end=1e6, record_every=100_000); print(run.stop.name, run.t.size, run.t_stop > 0)"
+        "from primer import Toy, ftcs; from primer.schemes.block import Block; ftcs(Toy(1.5), t_end=10);"
+        "march = Block.march; Block.march = lambda block: (print('go', flush=True), march(block));"
+        "run = ftcs(Toy(1.5), t_end=1e6, record_every=100_000); print(run.stop.name, run.t.size, run.t_stop < 1e6)"
     )
     process = subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, text=True)
-    assert process.stdout.readline() == "go\n"
-    time.sleep(1)  # the run would take minutes
-    process.send_signal(signal.SIGINT)
     try:
-        out, _ = process.communicate(timeout=60)
+        assert process.stdout.readline() == "go\n"
+        time.sleep(0.5)  # the run would take minutes; whether it has begun by then or not, it ends the same
+        process.send_signal(signal.SIGINT)
+        out, _ = process.communicate()
     finally:
         process.kill()
-    assert out.split()[0] == "INTERRUPTED"
+    assert out.split()[::2] == ["INTERRUPTED", "True"]
 
 
-def test_without_numba_it_is_said_once(monkeypatch):
-    monkeypatch.setitem(sys.modules, "primer.schemes.kernel", None)  # importing it now raises ImportError
-    compiled.cache_clear()
-    _say.cache_clear()
+def test_without_a_compiler_it_is_said_once(monkeypatch):
+    monkeypatch.setitem(sys.modules, "llvmlite.binding", None)  # importing it now raises ImportError
+    monkeypatch.setattr(scheme, "_SOON", 0)
+    able.cache_clear()
+    _compiler.cache_clear()
     try:
-        with pytest.warns(RuntimeWarning, match="numba is not here .*the same, but slower"):
+        with pytest.warns(RuntimeWarning, match="llvmlite is not here .*the same, but slower"):
             run = ftcs(Toy(1.5), 100, 1e-3, 0.02)
         ftcs(Toy(1.5), 100, 1e-3, 0.02)  # silent: a warning here would be an error
     finally:
-        compiled.cache_clear()
+        able.cache_clear()
     *_, last = march(1.5, 0.01, 100, 1e-3, 20)
     np.testing.assert_array_equal(run.final, last)
+
+
+@pytest.mark.parametrize("problem", [OSError, SystemError, AttributeError, RuntimeError, TypeError, ImportError])
+def test_a_compiler_that_fails_to_load_in_any_way_is_said_once(problem, monkeypatch):
+    """llvmlite without its library is an OSError, and other faults may be anything."""
+    attempts = []
+
+    def broken():
+        attempts.append(problem)
+        raise problem(f"could not load {len(attempts)}\nand more")
+
+    monkeypatch.setattr("primer.compiled._compiler", broken)
+    monkeypatch.setattr(scheme, "started", lambda: True)
+    monkeypatch.setattr(scheme, "_SOON", 0)  # so that a short run asks for it, too
+    able.cache_clear()
+    try:
+        with pytest.warns(RuntimeWarning, match="llvmlite is not here .*could not load 1 and more.*slower") as said:
+            run = ftcs(Toy(1.5), 100, 1e-3, 0.02)
+        assert [one.filename for one in said] == [__file__]
+        ftcs(Toy(1.5), 100, 1e-3, 0.02)  # silent: a warning here would be an error
+        lines = march_lines(Toy(1.5), 16, 1e-3, 0.02).final
+    finally:
+        able.cache_clear()
+    monkeypatch.undo()
+    np.testing.assert_array_equal(run.final, list(march(1.5, 0.01, 100, 1e-3, 20))[-1])
+    np.testing.assert_array_equal(lines, march_lines(Toy(1.5), 16, 1e-3, 0.02).final)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("problem", ["OSError('libllvmlite.so')", "SystemError('_internal')", "AttributeError('long')"])
+def test_a_broken_compiler_costs_a_new_process_only_time(problem, tmp_path):
+    (tmp_path / "llvmlite.py").write_text(f"raise {problem}\n")
+    code = "from primer import Toy, ftcs, march_lines; print(ftcs(Toy(1.5), t_end=5).dist[-1].hex());"
+    code += "march_lines(Toy(1.5), 16, 1e-3, 0.1)"
+    env = {**os.environ, "PYTHONPATH": f"{tmp_path}{os.pathsep}{Path(primer.__file__).parents[1]}"}
+    found = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, env=env, timeout=120)
+    assert found.stdout == f"{ftcs(Toy(1.5), t_end=5).dist[-1].hex()}\n", found.stderr
+    assert found.stderr.count("RuntimeWarning: llvmlite is not here") == 1
+    assert "Traceback" not in found.stderr
 
 
 @pytest.mark.parametrize("dtype", [np.float32, np.float64])
@@ -357,9 +402,17 @@ def test_a_clock_counts_whole_steps_up_to_two_to_the_53():
         ({"dtype": "nonsense"}, ValueError, "dtype must be float32, float64 or longdouble"),
         ({"dt": 1e-60, "t_end": 1e-50}, ValueError, "dt must be >= 1.2e-38, got 1e-60"),
         ({"seed": (1,)}, TypeError, "seed must be a Seed, or its (mode, amplitude, field) as a tuple, or None"),
-        ({"problem": Toy}, TypeError, "problem must be a Toy, a BackwardHeat or an object with their methods, got <cl"),
+        (
+            {"problem": Toy},
+            TypeError,
+            "problem must be a PDE, a Toy, a BackwardHeat or an object with their methods, got <cl",
+        ),
         ({"digits": 1}, ValueError, "digits must be an integer >= 2 and <= 10000, got 1"),
-        ({"problem": 3}, TypeError, "problem must be a Toy, a BackwardHeat or an object with their methods, got 3"),
+        (
+            {"problem": 3},
+            TypeError,
+            "problem must be a PDE, a Toy, a BackwardHeat or an object with their methods, got 3",
+        ),
     ],
 )
 def test_bad_input_gets_one_sentence(options, error, sentence):
@@ -376,20 +429,21 @@ def a_plan(n=16, dt=0.01, t_end=1.0, record_every=None, snapshots=(), seed=None,
 
 
 def test_which_runs_are_for_the_compiled_loop(monkeypatch):
-    """Toy systems in machine numbers, where the compiler is loaded already or the run is long enough to be worth it."""
-    monkeypatch.setattr(scheme, "compiled", lambda module: object())
-    monkeypatch.delitem(sys.modules, scheme.KERNEL, raising=False)
-    long, short = a_plan(2**10, 1.0, 2.0**9 + 1), a_plan(2**10, 1.0, 2.0**9)  # 2^19 points and no more is short
-    assert scheme._compiles(Toy(1.5), long)
-    assert not scheme._compiles(Toy(1.5), short)
-    monkeypatch.setitem(sys.modules, scheme.KERNEL, scheme)
-    assert scheme._compiles(Toy(1.5), short)
+    """Problems of a text in machine numbers, once the steps of that text so far would have paid for the compiler."""
+    monkeypatch.setattr(scheme, "able", lambda: True)
+    monkeypatch.setattr(scheme, "started", lambda: False)
+    tally.cache_clear()
+    long, short = a_plan(dt=1.0, t_end=scheme._LATER + 1.0), a_plan(dt=1.0, t_end=scheme._LATER / 2)
+    assert scheme._compiles(PDE("u_t = 2*u_x", {"u": "sin(x)"}), long)
+    assert [scheme._compiles(Toy(1.5), short) for _ in range(4)] == [False, False, True, True]
+    assert not scheme._compiles(BackwardHeat(), short)
+    monkeypatch.setattr(scheme, "started", lambda: True)
+    assert scheme._compiles(BackwardHeat(), short)
     assert scheme._compiles(Toy(1.5), a_plan(dtype=np.float32))
     assert not scheme._compiles(Toy(1.5), a_plan(dtype=np.longdouble))
     assert not scheme._compiles(Toy(1.5), a_plan(digits=20))
-    assert not scheme._compiles(BackwardHeat(), short)
-    assert not scheme._compiles(Interrupting(1.5), short)
-    monkeypatch.setattr(scheme, "compiled", lambda module: None)
+    assert not scheme._compiles(Interrupting(1.5), long)
+    monkeypatch.setattr(scheme, "able", lambda: False)
     assert not scheme._compiles(Toy(1.5), long)
 
 

@@ -1,6 +1,11 @@
 """Guards the notebooks' form: executed, whole, short cells, captions; that their outputs are true is nbval's part."""
 
+import json
+import os
 import re
+import signal
+import subprocess
+import sys
 from pathlib import Path
 
 import nbformat
@@ -149,6 +154,30 @@ def test_students_copy_keeps_their_work(tmp_path):
     assert not list(folder.rglob(".copy-*"))
 
 
+def test_a_copy_without_solutions(tmp_path, capsys):
+    from primer.__main__ import main
+
+    assert main(["lab", str(tmp_path / "course"), "--without-solutions", "--copy-only", "--json"]) == 0
+    told = json.loads(capsys.readouterr().out)
+    assert sorted(told["copied"]) == sorted(path.name for path in LESSONS)
+    assert not (tmp_path / "course" / "solutions").exists()
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(os.name != "posix", reason="signals are of POSIX")
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_a_signal_ends_jupyterlab_with_the_command(tmp_path, number):
+    """JupyterLab is stood in for by a process that writes its number and waits."""
+    waits = "import os, sys, time; print(os.getpid(), flush=True); time.sleep(600)"
+    code = f"import sys; from primer.lab import _serve; _serve([sys.executable, '-c', {waits!r}])"
+    command = subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, text=True)
+    server = int(command.stdout.readline())
+    command.send_signal(number)
+    assert command.wait(30) != 0
+    with pytest.raises(ProcessLookupError):
+        os.kill(server, 0)
+
+
 def test_a_folder_that_cannot_be(tmp_path, capsys):
     from primer.__main__ import main
 
@@ -162,21 +191,24 @@ def test_a_folder_that_cannot_be(tmp_path, capsys):
 
 
 def test_jupyterlab_starts_on_the_first_notebook_and_its_failure_is_told(tmp_path, capsys, monkeypatch):
-    from subprocess import CompletedProcess
-
     from primer import lab
     from primer.__main__ import main
 
     started, code = [], 0
 
-    def start(command, check):
+    def start(command):
         started.append(command)
-        return CompletedProcess(command, code)
+        return code
 
-    monkeypatch.setattr(lab.subprocess, "run", start)
-    assert main(["lab", str(tmp_path), "--", "--no-browser"]) == 0
-    assert "--LabApp.default_url=/lab/tree/00_start_here.ipynb" in started[0]  # the address it prints
-    assert started[0][-1] == "--no-browser"
+    monkeypatch.setattr(lab, "_serve", start)
+    for between in (["--"], []):
+        assert main(["lab", str(tmp_path), *between, "--no-browser", "--port", "9000"]) == 0
+        assert "--LabApp.default_url=/lab/tree/00_start_here.ipynb" in started[-1]  # the address it prints
+        assert started[-1][-3:] == ["--no-browser", "--port", "9000"]
+    mine = tmp_path / "03_grid_dependence.ipynb"
+    mine.write_text("my work", encoding="utf-8")
+    assert main(["lab", str(tmp_path)]) == 0
+    assert f"--LabApp.default_url=/lab/tree/{mine.name}" in started[-1]  # where the student left off
     code = 1
     assert main(["lab", str(tmp_path)]) == 2
     assert "got its exit code 1" in capsys.readouterr().err

@@ -72,7 +72,7 @@ def test_order_in_time(space, time, steps):
 def test_compiled_and_plain_loop_agree(space, time, monkeypatch):
     toy = Toy(1.3, 0.2)
     compiled = march_lines(toy, 20, 0.02, 1, space, time)
-    monkeypatch.setattr(lines, "compiled", lambda module: None)
+    monkeypatch.setattr(lines, "able", lambda: False)
     plain = march_lines(toy, 20, 0.02, 1, space, time)
     assert largest_error(compiled.final, plain.final) < 1e-13
 
@@ -221,7 +221,7 @@ def test_the_states_on_the_way_and_the_depth_of_u_below_zero(space, n, fast, mon
     """Step by step by ``RungeKutta.step``; the depth by the rectangle rule, from the state before each step."""
     toy, dt, counts = Toy(0.4, 1e-4), np.array([0.02, 0.01, 0.04]), np.array([3, 0, 50])
     if not fast:
-        monkeypatch.setattr(lines, "compiled", lambda module: None)
+        monkeypatch.setattr(lines, "able", lambda: False)
     states, depth = lines.trace(toy, n, space, RK8, dt, counts)
     x, h, deep = Grid(n).x, 2 * np.pi / n, 0.0
     y = np.array(toy.initial(x))
@@ -242,7 +242,7 @@ def test_the_states_on_the_way_and_the_depth_of_u_below_zero(space, n, fast, mon
 @pytest.mark.parametrize("space", [CENTRAL, FOURIER], ids=["central", "fourier"])
 def test_states_that_a_blow_up_kept_from_being_reached_are_nan(space, fast, monkeypatch):
     if not fast:
-        monkeypatch.setattr(lines, "compiled", lambda module: None)
+        monkeypatch.setattr(lines, "able", lambda: False)
     toy, dt = Toy(-1.0, 0.5), np.full(4, 0.05)
     counts = np.array([2, 2, 1000, 1])
     states, depth = lines.trace(toy, 32, space, RK4, dt, counts)
@@ -318,7 +318,7 @@ def test_the_longest_marches_allowed(monkeypatch):
 
 @pytest.mark.parametrize("wrong", [Toy, 3, object()])
 def test_what_is_no_problem_is_named(wrong):
-    with pytest.raises(TypeError, match=r"^problem must be a Toy, a BackwardHeat or an object with their"):
+    with pytest.raises(TypeError, match=r"^problem must be a PDE, a Toy, a BackwardHeat or an object with their"):
         march_lines(wrong, 4, 0.1, 1.0)
     with pytest.raises(TypeError, match="toy must be a Toy, got"):
         stable_step(wrong, 4, CENTRAL, RK4)

@@ -25,6 +25,7 @@ FLOORS = [
     "claims",
     "arithmetic",
     "compiled",
+    "terminal",
     "equations",
     "problems",
     "schemes",
@@ -88,7 +89,8 @@ def test_dataclasses_are_frozen():
     # Arrays have no truth value to compare results by, functions no other one than themselves.
     holds_arrays = {x for x in seen if any(kind in str(f.type) for f in fields(x) for kind in ("ndarray", "Numbers"))}
     assert [x.__name__ for x in holds_arrays if x.__dataclass_params__.eq] == []
-    inside = "Atlas Case Dispersion GridThreshold Movie Pencil Refinement RheologyAnswer Shown _Matrix"  # deeper down
+    inside = "Atlas Case Code Dispersion GridThreshold Known Lanes Leaves Linearisation Movie Pencil Refinement"
+    inside += " RheologyAnswer Shown Source _Matrix"  # deeper down
     assert sorted(x.__name__ for x in seen - holds_arrays if not x.__dataclass_params__.eq) == inside.split()
 
 

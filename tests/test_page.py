@@ -269,7 +269,7 @@ class Reader:
         self.page.goto("about:blank")
         start = time.perf_counter()
         self.page.goto(self.address + state)
-        self.page.wait_for_selector("html[data-ready]", state="attached", timeout=20_000)
+        self.page.wait_for_selector("html[data-ready]", state="attached", timeout=120_000)
         self.page.evaluate("() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))")
         return time.perf_counter() - start
 
@@ -299,7 +299,7 @@ class Reader:
 
     def wait_until(self, said):
         """Until it is so; the page's policy lets nobody's text be evaluated inside of it, not even a test's."""
-        for _ in range(100):
+        for _ in range(2000):
             if self.page.evaluate(said):
                 return
             self.page.wait_for_timeout(50)

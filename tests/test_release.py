@@ -2,6 +2,7 @@
 
 import io
 import re
+import shlex
 import subprocess
 import sys
 import tarfile
@@ -114,10 +115,13 @@ def test_contributing_names_commands_that_exist():
     assert len(re.findall(r"^\d+\. ", text, flags=re.M)) == 10
 
 
-def test_without_arguments_the_help_is_shown_and_the_exit_code_is_2():
+def test_without_arguments_it_greets():
     done = subprocess.run([sys.executable, "-m", "primer"], capture_output=True, text=True, cwd=ROOT)
-    assert (done.returncode, done.stdout) == (2, "")
-    assert all(word in done.stderr for word in ("usage: primer", "verdict", "granular", "claims"))
+    assert (done.returncode, done.stderr) == (0, "")
+    assert all(word in done.stdout for word in ("Welcome", "usage: primer", "verdict", "granular", "lab", "claims"))
+    for example in re.findall(r"^  primer (.+?)  +", done.stdout, flags=re.M):
+        if not example.startswith("lab"):
+            assert main(shlex.split(example)) == 0
 
 
 def test_ctrl_c_gives_130(monkeypatch):

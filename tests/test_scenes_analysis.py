@@ -179,7 +179,7 @@ def test_values_left_out_are_named():
         "u_t = ",
         "u_t = $",
         "((((",
-        "u_t = u_xx, v = 3",
+        "u_t = u_xx, 3",
         "u_x = 0",
         "u = u_zz",
         "__import__('os')",

@@ -86,7 +86,10 @@ def test_at_the_edge_the_sawtooth_is_neutral_and_the_other_bound_holds():
     assert stable_dt(Toy(3.0, 0.5), 60) == frozen_dt(Grid(60).h, 3 + OVERSHOOT, 0.5)
     for call, sentence in (
         (lambda: frozen_dt(0.1, 1.0, -0.5), "eps must be a finite number >= 0, got -0.5"),
-        (lambda: stable_dt(3, 8), "toy must be a Toy, got 3"),
+        (
+            lambda: stable_dt(3, 8),
+            "problem must be a PDE, a Toy, a BackwardHeat or an object with their methods, got 3",
+        ),
         (lambda: stable_dt(Toy(1), 8, []), "u must hold at least one number, got []"),
         (lambda: amplification_over_modes(3, 8, 0.1, 1.0), "toy must be a Toy, got 3"),
     ):

@@ -13,6 +13,7 @@ import sympy as sp
 
 from primer import BackwardHeat, Toy, growth_rates, linearise, verdict
 from primer.analysis.symbolic import _tidied, pencil, symbol
+from primer.analysis.verdict import Kind
 from primer.equations.linear import read
 from primer.equations.text import PDEError, parse
 from primer.schemes.grid import Grid
@@ -79,7 +80,7 @@ def test_conservation_form_is_the_same_system():
         ("u_t = 25e-1*u", sp.Rational(5, 2)),
         ("(2*u\n)_t = (u_x +\n u)_x", (-(xi**2) + sp.I * xi) / 2),
         ("ε_t = ε_x", sp.I * xi),
-        ("phi_1_t = −phi_1_xx", xi**2),  # noqa: RUF001
+        ("phi_1_t = −phi_1_xx", xi**2),
     ],
 )
 def test_grammar(text, symbol):
@@ -148,11 +149,51 @@ def test_what_is_not_given_is_listed_at_once():
     with pytest.raises(PDEError, match="v_xx"):
         verdict(TOY, at={"u": 1}, eps=0.01)
     assert verdict(TOY, at={"u": 1}, eps=0.01, order="maximal").kind == "well-posed"  # v_xx is not asked for
-    assert verdict("u_t = u_xx + f + x^2*sin(t)").kind == "well-posed"  # nor are f, x and t
+    assert verdict("u_t = u_xx + f + x^2*sin(t)", f=0).kind == "well-posed"  # nor are x and t
     with pytest.raises(PDEError, match="base-state values x"):
         growth_rates("u_t = x*u_x", 1.0)
     assert growth_rates("u_t = x*u_x", 1.0, at={"x": 3}) == pytest.approx(3j)
     assert growth_rates("u_t = a*u", 1.0, at={"a": 3}) == 3  # a parameter among the base values
+
+
+@pytest.mark.parametrize(
+    ("text", "name"),
+    [
+        ("u_t = -uxx", "uxx"), ("u_t = -u_rr", "u_rr"), ("u_t = -u_x1x1", "u_x1x1"), ("u_t = -u_XX", "u_XX"),
+        ("u_t = -lap_u", "lap_u"), ("u_t = -d2udx2", "d2udx2"), ("u_t = u_хх", "u_хх"),
+        ("u_t = u_xx - uyy", "uyy"), ("u_t = u*u_r - u", "u_r"), ("u_t = u_xx - du_dx*u", "du_dx"),
+        ("u_t = v - phi_1xx*u; phi_1_t = v_x; v_t = u", "phi_1xx"),
+    ],
+)  # fmt: skip
+def test_a_derivative_spelt_otherwise_is_not_a_parameter(text, name):
+    for ask in (verdict, linearise, lambda text: growth_rates(text, [1.0, 2.0])):
+        with pytest.raises(PDEError, match=f"^{name} was not understood.*give {name}=...\n") as caught:
+            ask(text)
+        *_, line, caret = str(caught.value).split("\n")
+        assert caret.index("^") - 4 == text.index(name)
+        assert line[4:] == text
+    assert verdict(text, at={name: 2, "u": 1, "u_x": 0}).kind in Kind  # a parameter, if it is said to be one
+
+
+def test_a_name_without_a_value_is_never_a_silent_zero():
+    for text in ("u_t = u_xx + f", "u_t = u_xx - f*x", "u_t = u_xx + (f)_x"):
+        for ask in (verdict, pencil):
+            with pytest.raises(PDEError, match=r"^not given: parameters f=\.\.\.$"):
+                ask(text)
+        with pytest.raises(PDEError, match=r"^f has no value, and nothing is left of it .*: give f=\.\.\.\n"):
+            linearise(text)
+        assert linearise(text, f=3) == sp.Matrix([[-(xi**2)]])
+    assert linearise("u_t = u*u_max*u_0*u_in") == sp.Matrix([[sp.prod(sp.symbols("u_max u_0 u_in"))]])
+
+
+@pytest.mark.parametrize(("inside", "outside"), [("ϵ", "ε"), ("µ", "μ"), ("Ω", "Ω"), ("ｋ", "k")])
+def test_compatibility_letters_are_the_letters_they_stand_for(inside, outside):
+    """Python takes them so in keywords: there the two are one name."""
+    for name in (inside, outside):
+        for text in (f"u_t = {inside}*u_xx", f"u_t = {outside}*u_xx"):
+            assert growth_rates(text, 2.0, **{name: 3}) == pytest.approx(-12)
+            assert growth_rates(text, 2.0, at={name: 3}) == pytest.approx(-12)
+    assert verdict(f"{inside}_t = {inside}*{outside}_xx", at={inside: -1, f"{outside}_xx": 0}).kind == "ill-posed"
 
 
 @pytest.mark.parametrize("value", [2, 2.0, np.float32(2), np.int64(2), Fraction(2), sp.Integer(2), 2 + 0j, sp.sqrt(4)])
@@ -194,8 +235,8 @@ def test_a_base_state_where_the_equations_cannot_be_linearised(text, at):
     ("text", "problem", "column"),
     [
         ("u_t = u_xx +", r"expected a number, a name or '\('", 12),
-        ("u_t = 2u", "expected an operator", 7),
-        ("u_t = u v", "expected an operator", 8),
+        ("u_t = u 2", "expected an operator", 8),
+        ("u_t = u\n v", "expected an operator", 1),
         ("u_t", "expected '='", 3),
         ("u_t = u = 3", "an equation has one '='", 8),
         ("u_t = (u", r"expected '\)' to close this bracket", 6),
@@ -204,24 +245,22 @@ def test_a_base_state_where_the_equations_cannot_be_linearised(text, at):
         ("u_t = " + "f" * 31 + "(u)", f"'{'f' * 27}...' is not a known function", 6),
         ("u_t = u)", r"unexpected '\)'", 7),
         ("u_t = foo(u)", "'foo' is not a known function", 6),
-        ("u_t = 3(u)", "expected an operator", 7),
         ("u_t = u @ 2", "unexpected character '@'", 8),
         ("u_t = u.real", r"unexpected character '\.'", 7),
         ("u_t = __class__", "unexpected character '_'", 6),
         ("u_t = u__x", "two underscores", 6),
         ("u_t = u_ + v", "one at its end", 6),
-        ("u_t = u²", "unexpected character '²'", 7),
+        ("u_t = u₊", "unexpected character '₊'", 7),
         ("u_t = 1/0", "division by zero", 7),
         ("u_t = 1/(u - u)", "division by zero", 7),
         ("u_t = 0^-1", "division by zero", 7),
         ("u_t = log(0)*u", "not finite", 6),
         ("u_t = 9^9^9", "too large", 7),
-        ("u_t = u_xx + u_zz", "a third space variable", 13),
         ("u_t = x_x", "independent variable", 6),
         ("u_t = u_xxxxxxxxxxxxx", "a derivative of order 13", 6),
         ("u_t = 1e999*u", "larger exponent", 6),
         ("u_t = u_xx; v_t = ", "expected a number", 18),
-        ("u_t = u_xx\nv_t = 2v", "expected an operator", 7),
+        ("u_t = u_xx\nv_t = v 2", "expected an operator", 8),
     ],
 )
 def test_errors_show_the_place(text, problem, column):
@@ -236,8 +275,8 @@ def test_errors_show_the_place(text, problem, column):
 @pytest.mark.parametrize(
     ("allowed", "refused"),
     [
-        (";".join(f"{c}_t = {c}" for c in "abcdfg"), ";".join(f"{c}_t = {c}" for c in "abcdfgh")),
-        ("u_t = " + "+".join(["u"] * 299), "u_t = u" + "+" + "+".join(["u"] * 299)),  # 599 symbols, 601
+        (";".join(f"{c}_t = {c}" for c in "abcdfghklm"), ";".join(f"{c}_t = {c}" for c in "abcdfghklmn")),
+        ("u_t = " + "+".join(["u"] * 449), "u_t = u" + "+" + "+".join(["u"] * 449)),  # 899 symbols, 901
         ("u_t = " + "a" * 40 + "*u", "u_t = " + "a" * 41 + "*u"),
         ("u_t = " + "(" * 39 + "u" + ")" * 39, "u_t = " + "(" * 40 + "u" + ")" * 40),  # two levels each, of 80
         ("u_t = " + "-" * 78 + "u", "u_t = " + "-" * 79 + "u"),
@@ -311,9 +350,10 @@ def test_equations_that_do_not_determine_the_unknowns_are_refused_by_every_route
     for ask in (verdict, pencil):
         with pytest.raises(PDEError, match="do not determine the unknowns"):
             ask("u_t + v_t = u_x; u_t + v_t = u_x")
-    for ask in (verdict, pencil):  # beyond what double precision can tell from singular
-        with pytest.raises(PDEError, match="do not determine the unknowns"):
-            ask("u_t + v_t = u_x; u_t + v_t*(1 + 1e-20) = u_x")
+    nearly = "u_t + v_t = u_x; u_t + v_t*(1 + 1e-20) = u_x"  # double precision cannot tell it from singular
+    with pytest.raises(PDEError, match="do not determine the unknowns"):
+        pencil(nearly)
+    assert verdict(nearly).bound == 0  # v_t = 0, u_t = u_x: the verdict has the digits
 
 
 @pytest.mark.slow
@@ -322,7 +362,7 @@ def test_numbers_at_the_edge_of_what_can_be_represented():
     assert verdict("u_tt = 0; v = v_yt").kind == "well-posed"
 
 
-@pytest.mark.parametrize("text", [None, 3, b"u_t = u", ["u_t = u"]])
+@pytest.mark.parametrize("text", [None, 3, b"u_t = u", {"u_t": "u"}, [], [3], ["u_t = u", None]])
 def test_text_must_be_a_string(text):
     with pytest.raises(TypeError, match="string"):
         linearise(text)
@@ -396,7 +436,7 @@ NINES, AS = "9" * 60, "a" * 41
         ("u_t = 1e300*u", sp.Integer(10) ** 300),
         ("u_t = 1e-300*u", sp.Integer(10) ** -300),
         ("u_t = 2.5e-1i*u", sp.I / 4),
-        ("u_t = u_zeta*u_z0*k_z*k_xz*u", sp.prod(sp.symbols("u_zeta u_z0 k_z k_xz"))),  # parameters, all of them
+        ("u_t = u_zeta*u_z0*k_s*k_xs*u", sp.prod(sp.symbols("u_zeta u_z0 k_s k_xs"))),  # parameters, all of them
         ("u_t = (0^2 + 1)*u", 1),
         (f"u_t = {2**40 - 1}^100*u", sp.Integer(2**40 - 1) ** 100),
         (f"u_t = ({2**20 - 1}/{2**19 + 1})^100*u", sp.Rational(2**20 - 1, 2**19 + 1) ** 100),
@@ -420,8 +460,6 @@ def test_expressions_up_to_the_limits(text, slope):
         (f"u_t = {NINES}9*u", "a number with more digits, or a larger exponent, than is allowed", 6),
         ("u_t = 2*1e301*u", "a number with more digits, or a larger exponent, than is allowed", 8),
         ("u_t = 2*1E-301*u", "a number with more digits, or a larger exponent, than is allowed", 8),
-        ("u_t = u + u_xz", "a third space variable: there are x and y only", 10),
-        ("u_t = u + u_txyz", "a third space variable: there are x and y only", 10),
         ("u_t = u + t_x", "t is an independent variable and cannot be differentiated", 10),
         ("u_t = u_" + "x" * 13, "a derivative of order 13, above the 12 allowed", 6),
         ("u_t = (3*u_" + "x" * 12 + ")_y", "a derivative of order 13, above the 12 allowed", 24),
@@ -486,11 +524,19 @@ def linearise_by_hand(entry):
     return -parts[0] / parts[1]
 
 
+MISSING = "not given: base-state values u, v_xx (at={'u': ..., 'v_xx': ...})"
+UNIFORM = "give uniform=True if the base state is uniform (all its derivatives are 0)"
+
+
 @pytest.mark.parametrize(
     ("text", "arguments", "sentence"),
     [
-        (TOY, {}, "not given: base-state values u, v_xx (at={'u': ..., 'v_xx': ...}) and parameters eps=..."),
-        (TOY, {"eps": 1}, "not given: base-state values u, v_xx (at={'u': ..., 'v_xx': ...})"),
+        (
+            TOY,
+            {},
+            f"{UNIFORM}; not given: base-state values u, v_xx (at={{'u': ..., 'v_xx': ...}}) and parameters eps=...",
+        ),
+        (TOY, {"eps": 1}, f"{UNIFORM}; not given: base-state values u, v_xx (at={{'u': ..., 'v_xx': ...}})"),
         (TOY, {"at": AT}, "not given: parameters eps=..."),
         (TOY, {"order": "maximal"}, "not given: base-state values u (at={'u': ...}) and parameters eps=..."),
         ("u_t = b*u_xx + a*u", {}, "not given: parameters b=..., a=..."),

@@ -16,6 +16,8 @@ import numpy as np
 from primer.analysis.puiseux import Law, branches, collected, hull_of, shifted_by
 from primer.analysis.roots import DIGITS, ZERO, resultant, roots
 
+NOTHING = Law(Fraction(0), -float("inf"))  # of a direction in which nothing evolves
+BEYOND = Fraction(1000)  # the exponent of a drift faster than any that the equations know: a limit taken first
 DEPTH = 2  # drifts within drifts
 LAST = -3  # terms of branches below k^LAST are left out
 SAMPLES = 25  # values of tau to begin with
@@ -31,17 +33,19 @@ class Worst:
     drift: Fraction
 
 
-def worst_law(D, real, hints=()):
+def worst_law(D, real, hints=(), inward=False):
     """The fastest law of det M = D(lambda, xi_1, xi_2), a polynomial {(n, a, b): c}, over all directions.
 
     ``real``: the equations have real coefficients, so that half of the directions tell all. ``hints`` are angles near
-    which the coefficient may be largest.
+    which the coefficient may be largest. ``inward``: for xi -> 0, as a law in 1/|xi|. An exponent above BEYOND/20 says
+    that growth is unbounded at every |xi|, near a direction in which the highest time derivative drops out.
     """
     found = []
     with mp.workdps(DIGITS):
         for sign in (1,) if real else (1, -1):
-            along_x = {(n, Fraction(a + b), b): c * sign ** (a + b) for (n, a, b), c in D.items()}
-            along_y = {(n, Fraction(a + b), a): c * sign ** (a + b) for (n, a, b), c in D.items()}
+            out = -1 if inward else 1
+            along_x = {(n, Fraction(out * (a + b)), b): c * sign ** (a + b) for (n, a, b), c in D.items()}
+            along_y = {(n, Fraction(out * (a + b)), a): c * sign ** (a + b) for (n, a, b), c in D.items()}
             search = _Search(hints)
             search.family(along_x, Fraction(0), DEPTH, None)
             search.near(along_y, Fraction(0), DEPTH, mp.inf)
@@ -70,7 +74,7 @@ class _Search:
     def law(self, F, r, tau):
         P = collected((((i, j - r * l), c * tau**l) for (i, j, l), c in F.items()))
         found = branches(P, self.last())
-        return found[0].law if found else Law(Fraction(0), -float("inf"))
+        return found[0].law if found else NOTHING
 
     def last(self):
         """The order below which the real part of a branch can no longer matter."""
@@ -79,6 +83,8 @@ class _Search:
 
     def add(self, law, slope, r):
         """Keep a law, its k the distance along the direction of this slope turned into |xi|."""
+        if law == NOTHING:
+            return
         stretch = 1 if slope == mp.inf else float(mp.sqrt(1 + slope**2))
         self.found.append((Law(law.exponent, law.coefficient * stretch ** -float(law.exponent)), slope, r))
 
@@ -121,6 +127,12 @@ class _Search:
         """t = 0 itself, and t = tau k^{-r'} with r' > r."""
         self.add(self.law(F, 0, 0), slope, r)
         P = {(i, j): c for (i, j, l), c in F.items() if l == 0}
+        if max((i for i, _ in P), default=-1) < max(i for i, _, _ in F):  # a pole: what is beside it, at every k
+            for tau in (1, -1):
+                law = self.law(F, BEYOND, mp.mpf(tau))
+                self.add(Law(Fraction(0), 0.0) if law.exponent < -BEYOND / 20 else law, slope, r)
+            if self.best().exponent > BEYOND / 20:
+                return
         exponents = _facets(F)
         # Where branches begin with the same imaginary terms, as all do in a mean flow, the rest decides.
         for imaginary in {terms[:n] for terms in self._imaginary(P) for n in range(1, len(terms) + 1)}:
@@ -141,7 +153,7 @@ class _Search:
         return found
 
     def best(self):
-        return max(law for law, _, _ in self.found)
+        return max((law for law, _, _ in self.found), default=NOTHING)
 
     def special(self, F, r, best):
         """Real tau where the Newton polygon of a faster law than ``best`` degenerates."""

@@ -7,8 +7,9 @@ from typing import Any
 import mpmath as mp
 import numpy as np
 
+from primer.analysis.each import each
 from primer.analysis.pencil import Pencil
-from primer.analysis.puiseux import Branch, branches, collected
+from primer.analysis.puiseux import branches, collected
 from primer.analysis.recover import recovered
 from primer.analysis.roots import DIGITS
 from primer.analysis.symbol import Symbol
@@ -23,14 +24,17 @@ class NotPolynomialError(ValueError):
 
 
 def growth_laws(
-    pde: str | Symbol | Pencil,
+    pde: Any,
     /,
     direction: ArrayLike | None = None,
     *,
     at: dict[str, Any] | None = None,
     order: str = "full",
+    uniform: bool = False,
+    space: Any = None,
+    time: str | None = None,
     **parameters: Any,
-) -> list[Branch]:
+) -> Any:
     """How each branch lambda(k) behaves along xi = k direction, k -> infinity: by the Newton polygon, exactly.
 
     Parameters
@@ -41,7 +45,8 @@ def growth_laws(
     Returns
     -------
     list of Branch, the fastest growing first: ``branch.exponent`` and ``branch.coefficient`` of its leading term, and
-    ``branch.law`` for the real part of lambda, which may be of a lower order
+    ``branch.law`` for the real part of lambda, which may be of a lower order. Where values are arrays, an array of such
+    lists, of their shape
 
     Raises
     ------
@@ -55,7 +60,13 @@ def growth_laws(
     2 0.0050
     0 200.0000
     """
-    exact = exact_symbol(pde, at=at, order=order, **parameters)
+    options = {"order": order, "uniform": uniform, "space": space, "time": time}
+    return each(
+        at, parameters, lambda at, parameters: _laws(exact_symbol(pde, at=at, **options, **parameters), direction)
+    )
+
+
+def _laws(exact, direction):
     along = np.atleast_1d(real_array("direction", [1, 0][: exact.dim] if direction is None else direction))
     if along.shape != (exact.dim,) or not along.any():
         raise ValueError(f"direction must be {exact.dim} number(s), not all zero, got {shown(direction)}")
@@ -68,21 +79,26 @@ def growth_laws(
 
 
 def exact_symbol(
-    pde: str | Symbol | Pencil, *, at: dict[str, Any] | None = None, order: str = "full", **parameters: Any
+    pde: Any,
+    *,
+    at: dict[str, Any] | None = None,
+    order: str = "full",
+    uniform: bool = False,
+    space: Any = None,
+    time: str | None = None,
+    **parameters: Any,
 ) -> Symbol:
     """The :class:`Symbol` of a text, a Pencil or a Symbol, its determinant checked: something evolves, and uniquely."""
-    if isinstance(pde, str):
-        exact = symbol(pde, at=at, order=order, **parameters)
-    elif at is not None or order != "full" or parameters:
+    if not isinstance(pde, (Pencil, Symbol)):
+        exact = symbol(pde, at=at, order=order, uniform=uniform, space=space, time=time, **parameters)
+    elif at or order != "full" or uniform or space is not None or time is not None or parameters:
         raise TypeError("base-state values, order and parameters go with equations as text only")
     elif isinstance(pde, Pencil):
         exact = recovered(pde)
         if exact is None:
             raise NotPolynomialError("the entries of the pencil are not polynomials in xi of degree 8 or less")
-    elif isinstance(pde, Symbol):
-        exact = pde
     else:
-        raise TypeError(f"equations must be given as text, or as a Pencil, got {type(pde).__name__}")
+        exact = pde
     D = exact.determinant
     if not D:
         raise PDEError("the linearised equations do not determine the unknowns: det(lambda E + S) vanishes identically")

@@ -1,5 +1,8 @@
 """Polynomials in one variable with multiprecision coefficients: lists, the constant term first."""
 
+from contextlib import suppress
+from itertools import pairwise
+
 import mpmath as mp
 
 DIGITS = 160  # carried throughout: a root of multiplicity m is known to one m-th of them
@@ -69,10 +72,107 @@ def _scaled_roots(p, zero):
 
 
 def _simple_roots(p):
+    """The roots of p, all of them simple: found in double precision, polished, and certified to be all there are."""
+    if len(p) == 2:
+        return [-p[0] / p[1]]
     if len(p) == 3:
         half, root = -p[1] / (2 * p[2]), mp.sqrt(p[1] ** 2 - 4 * p[0] * p[2]) / (2 * p[2])
-        return [half + root, half - root]
+        far = half - root if abs(half - root) > abs(half + root) else half + root
+        return [far, p[0] / (p[2] * far)]  # the smaller without cancellation
+    with suppress(ZeroDivisionError):
+        found = _polished(p)
+        if found:
+            return found
     return mp.polyroots(p[::-1], maxsteps=1000, extraprec=mp.mp.prec)
+
+
+def _polished(p):
+    """The roots from starts in double precision by Newton's method, or None where they cannot be certified.
+
+    Each lies within len(p) - 1 times its Weierstrass correction of a root (Smith 1970): where these discs are disjoint
+    and small, there is one root in each.
+    """
+    z, digits = _aberth(p), mp.mp.dps
+    with mp.workdps(digits + 15):
+        slope = derivative(p)
+        for i, x in enumerate(z):
+            for _ in range(12):
+                fall = _at(slope, x)
+                if fall == 0:
+                    return None
+                step = _at(p, x) / fall
+                x -= step
+                if abs(step) <= mp.mpf(10) ** (-digits // 2 - 5) * abs(x):  # the next would be at rounding level
+                    break
+            z[i] = x
+        radius = []
+        for i, x in enumerate(z):
+            others = mp.fprod(x - y for j, y in enumerate(z) if j != i) * p[-1]
+            if others == 0:
+                return None
+            radius.append(len(z) * abs(_at(p, x) / others))
+        near = mp.mpf(10) ** (5 - digits)
+        if any(r > near * abs(x) for r, x in zip(radius, z, strict=True)):
+            return None
+        if any(abs(z[i] - z[j]) <= radius[i] + radius[j] for i in range(len(z)) for j in range(i)):
+            return None
+    return [+x for x in z]
+
+
+def _aberth(p):
+    """The roots of p to some eight digits: by the Ehrlich-Aberth iteration, in double precision if numbers allow."""
+    z = _starts(p)
+    largest = max(abs(a) for a in p)
+    scaled = [a / largest for a in p]
+    if all(abs(a) > 1e-100 for a in scaled if a) and all(1e-20 < abs(x) < 1e20 for x in z) and len(p) < 14:
+        with suppress(OverflowError, ZeroDivisionError):
+            found = _iterated([complex(a) for a in scaled], [complex(x) for x in z], 1e-9)
+            return [mp.mpc(x) for x in found]
+    with mp.workdps(30):
+        return _iterated(p, z, mp.mpf(10) ** -9)
+
+
+def _iterated(p, z, enough):
+    slope = derivative(p)
+    for _ in range(60):
+        largest = 0
+        for i, x in enumerate(z):
+            value = _at(p, x)
+            if value == 0:
+                continue
+            step = _at(slope, x) / value - sum(1 / (x - y) for j, y in enumerate(z) if j != i)
+            z[i] = x - 1 / step
+            largest = max(largest, abs(1 / (step * z[i])))
+        if largest < enough:
+            break
+    return z
+
+
+def _starts(p):
+    """Rough places of the roots: on circles whose radii are the slopes of the Newton polygon (Bini 1996)."""
+    size = [float(mp.log(abs(a))) if a else -float("inf") for a in p]
+    hull: list[int] = []
+    for n, height in enumerate(size):
+        if height == -float("inf"):
+            continue
+        while len(hull) > 1 and (size[hull[-1]] - size[hull[-2]]) * (n - hull[-1]) <= (height - size[hull[-1]]) * (
+            hull[-1] - hull[-2]
+        ):
+            hull.pop()
+        hull.append(n)
+    z = []
+    for low, high in pairwise(hull):
+        radius = mp.exp((size[low] - size[high]) / (high - low))
+        turn = 2 * mp.pi / (high - low)
+        z += [radius * mp.expj(turn * m + 0.7 + low) for m in range(high - low)]
+    return z
+
+
+def _at(p, x):
+    value = p[-1]
+    for a in p[-2::-1]:
+        value = value * x + a
+    return value
 
 
 def resultant(p, q):

@@ -28,10 +28,13 @@ class Symbol:
     entries : tuple of tuples of polynomials {(n, a, b): c} in lambda and the derivatives (d/dx, d/dy) = i xi: the
         coefficients of time derivatives of order n and space derivatives of orders a and b
     dim : int       the number of space variables
+    uniform : bool  whether the coefficients are those of a base state that is uniform and steady, so that the growth of
+                    an exponential is that of a perturbation; where it varies they are frozen at a point
     """
 
     entries: tuple
     dim: int = 1
+    uniform: bool = True
 
     @cached_property
     def determinant(self):

@@ -9,39 +9,55 @@ import mpmath as mp
 import numpy as np
 import sympy as sp
 
+from primer.analysis.each import Each, each
+from primer.analysis.frozen import frozen, is_lower, is_uniform
 from primer.analysis.pencil import Pencil
 from primer.analysis.roots import DIGITS
 from primer.analysis.symbol import Symbol
 from primer.checks import shown
-from primer.equations.linear import read
-from primer.equations.text import PDEError
-from primer.equations.values import checked, evaluated, substituted
+from primer.equations.error import PDEError, ask
+from primer.equations.missing import dropped, not_given
+from primer.equations.values import evaluated, substituted
 from primer.types import ArrayLike, Multiplier
 
 
-def symbol(text: str, *, at: dict[str, Any] | None = None, order: str = "full", **parameters: Any) -> Symbol:
+def symbol(
+    text: Any,
+    *,
+    at: dict[str, Any] | None = None,
+    order: str = "full",
+    uniform: bool = False,
+    space: Any = None,
+    time: str | None = None,
+    **parameters: Any,
+) -> Symbol:
     """The exact :class:`Symbol` of a PDE, linearised about a base state and frozen.
 
     Parameters
     ----------
-    text : str          equations such as "u_t = v_x; v_t = eps*u*v_xx + u_x - v - sin(x)"; the grammar is in
-                        ``primer.equations.text``
+    text : str          equations such as "u_t = v_x; v_t = eps*u*v_xx + u_x - v - sin(x)", as people write them, also
+                        in LaTeX: ``primer help equations``. A list of texts, sympy equations and lists of these, too
     at : dict           base-state values by name: {"u": -0.5, "v_xx": 0.3}, and where x, y, t are frozen
     order : str         "full", or "maximal": in each equation only the highest space derivatives of each unknown are
                         kept, as in eq. (toy-pde-lin)
-    **parameters        the values of the other names
+    uniform : bool      whether all derivatives of the base state are 0
+    space, time         what the text calls its variables, such as space="r", or "x, z", and time="tau"
+    **parameters        the values of the other names; a function f(u) of the text is given as a text, f="u^3 - u", or
+                        as a function of Python, f=lambda u: u**3 - u
 
     Raises
     ------
     PDEError    (a ValueError) for text that cannot be used, or for values that matter and are not given, all of them
     """
-    system, values = _read(text, at, order, parameters)
-    missing, entries = {}, []
+    system, values = frozen(text, at, order, uniform, space, time, parameters)
+    if system.dim == 3:
+        raise PDEError("a third space variable: there are x and y only")
+    missing, entries = dict.fromkeys(dropped(system, values)), []
     with mp.workdps(DIGITS):
         for slopes in system.slopes:
             row: dict[str, dict] = {name: {} for name in system.unknowns}
             for (name, power), slope in sorted(slopes.items(), key=lambda item: -sum(item[0][1][1:])):
-                if order == "maximal" and _is_lower(power, row[name]):
+                if order == "maximal" and is_lower(power, row[name]):
                     continue
                 unset = {s.name for s in slope.free_symbols if s.name not in values}
                 missing.update(dict.fromkeys(sorted(unset)))
@@ -50,26 +66,30 @@ def symbol(text: str, *, at: dict[str, Any] | None = None, order: str = "full", 
                     row[name][power] = coefficient
             entries.append(tuple(row.values()))
     if missing:
-        raise PDEError(_what_is_missing(missing, system))
+        raise PDEError(not_given(missing, system))
     if not any(n for row in entries for entry in row for n, _, _ in entry):
         raise PDEError("no equation contains a time derivative (u_t), so nothing evolves")
-    return Symbol(tuple(entries), system.dim)
+    return Symbol(tuple(entries), system.dim, is_uniform(system, values))
 
 
 def growth_rates(
-    text: str,
+    text: Any,
     xi: ArrayLike,
     *,
     at: dict[str, Any] | None = None,
     order: str = "full",
     multiplier: Multiplier | None = None,
+    uniform: bool = False,
+    space: Any = None,
+    time: str | None = None,
     **parameters: Any,
 ) -> np.ndarray:
     """The growth rates lambda of the perturbations e^{i xi x + lambda t} of a PDE at wavenumbers xi.
 
     Parameters
     ----------
-    text, at, order, parameters    as for :func:`symbol`
+    text, at, order, uniform, space, time, parameters    as for :func:`symbol`; where values are arrays, of shape s0,
+                        the answer is of shape s0 + s + (number of finite branches,)
     xi : array          of shape s; in two space variables of shape (2,) + s
     multiplier          ``multiplier(xi, m)`` is what the m-th derivative does to e^{i xi x}: left out, (i xi)^m; a
                         grid's ``Grid.multiplier`` gives the growth of the equations on that grid. A mixed derivative is
@@ -84,21 +104,32 @@ def growth_rates(
     >>> print(growth_rates("u_t = u_xxx - u_xx", [1.0, 10.0]).real.ravel())
     [  1. 100.]
     """
-    return pencil(text, at=at, order=order, multiplier=multiplier, **parameters).eigenvalues(xi)
+    options = {"order": order, "multiplier": multiplier, "uniform": uniform, "space": space, "time": time}
+    found = each(at, parameters, lambda at, parameters: pencil(text, at=at, **options, **parameters).eigenvalues(xi))
+    if not isinstance(found, Each):
+        return found
+    if len({rates.shape for rates in found.flat}) > 1:
+        raise ValueError("the number of branches differs between these base states: ask for one at a time")
+    return (
+        np.stack(list(found.flat)).reshape(*found.shape, *found.flat[0].shape) if found.size else np.empty(found.shape)
+    )
 
 
 def pencil(
-    text: str,
+    text: Any,
     *,
     at: dict[str, Any] | None = None,
     order: str = "full",
     multiplier: Multiplier | None = None,
+    uniform: bool = False,
+    space: Any = None,
+    time: str | None = None,
     **parameters: Any,
 ) -> Pencil:
     """The symbol of a PDE as a :class:`Pencil` of numbers; arguments as for :func:`growth_rates`."""
     if multiplier is not None and not callable(multiplier):
         raise TypeError(f"multiplier must be a function of xi and m, got {shown(multiplier)}")
-    exact = symbol(text, at=at, order=order, **parameters)
+    exact = symbol(text, at=at, order=order, uniform=uniform, space=space, time=time, **parameters)
     for m in sorted({m for row in exact.entries for entry in row for _, *orders in entry for m in orders if m}):
         try:
             multiplier is None or multiplier(np.array([1.0]), m)
@@ -109,31 +140,51 @@ def pencil(
     return exact.pencil(multiplier)
 
 
-def linearise(text: str, *, at: dict[str, Any] | None = None, order: str = "full", **parameters: Any) -> sp.Matrix:
+def linearise(
+    text: Any,
+    *,
+    at: dict[str, Any] | None = None,
+    order: str = "full",
+    uniform: bool = False,
+    space: Any = None,
+    time: str | None = None,
+    **parameters: Any,
+) -> Any:
     """The symbol of a PDE as a sympy matrix, for eq. (toy-mat).
 
-    Names without a value stay symbols; so do the wavenumber xi, or xi_1 and xi_2 in two space variables. Other
-    arguments are those of :func:`symbol`.
+    Names without a value stay symbols, though one that nothing would be left of, as of a forcing, must have a value;
+    so do the wavenumber xi, or xi_1, xi_2 (and xi_3) in more space variables. Other arguments are those of
+    :func:`symbol`.
 
     Returns
     -------
     sympy.Matrix    A, with lambda q = A q, where the equations give the first time derivatives (or, up to three, can be
                     solved for them); otherwise, as with constraints or a second time derivative, M, with M q = 0,
                     whose entries contain lambda. The unknowns q are in the order in which they occur, those with a time
-                    derivative first.
+                    derivative first. Where values are arrays, an array of such matrices, of their shape.
 
     >>> print(linearise("u_t = u*u_x + u_xx", at={"u": 2, "u_x": 0}))
     Matrix([[-xi**2 + 2*I*xi]])
     """
-    system, values = _read(text, at, order, parameters)
-    lam, *xi = sp.symbols("lambda xi") if system.dim == 1 else sp.symbols("lambda xi_1 xi_2")
+    return each(at, parameters, lambda at, parameters: _matrix(text, at, order, uniform, space, time, parameters))
+
+
+def _matrix(text, at, order, uniform, space, time, parameters):
+    system, values = frozen(text, at, order, uniform, space, time, parameters)
+    for name in dropped(system, values):
+        said = system.said(name)
+        problem = (
+            f"{said} has no value, and nothing is left of it in the linearised equations: give {ask('value', said)}"
+        )
+        raise PDEError(problem, system.text, system.places[name])
+    lam, *xi = sp.symbols("lambda xi" if system.dim == 1 else f"lambda xi_1:{system.dim + 1}")
     size = len(system.unknowns)
     parts: dict = {}
     for r, slopes in enumerate(system.slopes):
         row: dict[str, dict] = {name: {} for name in system.unknowns}
         for (name, power), slope in sorted(slopes.items(), key=lambda item: -sum(item[0][1][1:])):
-            coefficient = substituted(slope, values)
-            if not (order == "maximal" and _is_lower(power, row[name])) and coefficient != 0:
+            coefficient = _spoken(substituted(slope, values), system, {lam, *xi})
+            if not (order == "maximal" and is_lower(power, row[name])) and coefficient != 0:
                 row[name][power] = coefficient
                 n, *orders = power
                 wave = sp.prod((sp.I * k) ** m for k, m in zip(xi, orders, strict=False))
@@ -147,27 +198,13 @@ def linearise(text: str, *, at: dict[str, Any] | None = None, order: str = "full
     return sum((lam**n * part for n, part in parts.items()), sp.zeros(size))
 
 
-def _read(text, at, order, parameters):
-    if order not in ("full", "maximal"):
-        raise ValueError(f"order must be 'full' or 'maximal', got {shown(order)}")
-    system = read(text, parameters)
-    return system, checked(system, at, parameters)
-
-
-def _is_lower(power, kept):
-    """Whether a higher space derivative, of the same order in time, is among those kept."""
-    return any(n == power[0] and sum(rest) > sum(power[1:]) for n, *rest in kept)
-
-
-def _what_is_missing(missing, system):
-    parameters = [name for name in missing if name in system.parameters]
-    base = [name for name in missing if name not in parameters]
-    parts = []
-    if base:
-        parts.append("base-state values " + ", ".join(base) + " (at={" + ", ".join(f"'{n}': ..." for n in base) + "})")
-    if parameters:
-        parts.append("parameters " + ", ".join(f"{name}=..." for name in parameters))
-    return "not given: " + " and ".join(parts)
+def _spoken(expression, system, waves):
+    """The expression in the names of the text, which must not be those of the wave."""
+    names = {symbol: sp.Symbol(system.outside(symbol.name)) for symbol in expression.free_symbols}
+    for own in names.values():
+        if own in waves:
+            raise PDEError(f"{own} stands for the growth rate or the wavenumber: give {ask('value', own.name)}")
+    return expression.xreplace(names)
 
 
 def _regular(E):

@@ -1,20 +1,23 @@
 """The verdict: does the growth of short waves stay bounded? (Section A2.1 of the paper.)"""
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 from fractions import Fraction
 from typing import Any
 
+import mpmath as mp
 import numpy as np
 
 from primer.analysis.directions import max_growth
-from primer.analysis.drift import worst_law
+from primer.analysis.drift import BEYOND, worst_law
+from primer.analysis.each import each
 from primer.analysis.laws import NotPolynomialError, exact_symbol
-from primer.analysis.pencil import Pencil
+from primer.analysis.poles import of_law, on_curves
 from primer.analysis.puiseux import branches
-from primer.analysis.supremum import exact_growth, supremum
-from primer.analysis.symbol import Symbol
+from primer.analysis.roots import DIGITS
+from primer.analysis.scales import scales
+from primer.analysis.supremum import along_line, exact_growth, in_plane, rate, ray
 
 
 class Kind(StrEnum):
@@ -43,9 +46,10 @@ class Verdict:
     bound : float
         the supremum of Re lambda over all xi: inf if ill-posed, nan if undecided
     unstable : bool
-        whether anything grows, bound > 0; with a finite bound that is instability, not ill-posedness
+        whether the base state is unstable: something grows, bound > 0, and the base state is uniform and steady. Where
+        it varies in space or time, coefficients are frozen at a point; growth there is not instability of the state
     reason : str
-        one sentence
+        in words
 
     The definition of linear ill-posedness is that of section A2.1.
 
@@ -62,27 +66,37 @@ class Verdict:
     unstable: bool
     reason: str
 
+    @property
+    def grows(self) -> bool:
+        """Whether any exponential grows, bound > 0; with a finite bound that is not ill-posedness."""
+        return self.bound > 0
+
 
 def verdict(
-    pde: str | Symbol | Pencil,
+    pde: Any,
     /,
     *,
     at: dict[str, Any] | None = None,
     order: str = "full",
+    uniform: bool = False,
+    space: Any = None,
+    time: str | None = None,
     **parameters: Any,
-) -> Verdict:
+) -> Any:
     """Whether a PDE is linearly ill-posed, about a base state and frozen at a point: steps 1 to 3 of section A2.1.
 
     Parameters
     ----------
     pde : str, Symbol or Pencil
-        equations such as "u_t = -u_xx", in x or in x and y; ``at``, ``order`` and ``parameters``, for text only,
-        are those of :func:`primer.linearise`. A pencil's entries must be polynomials in xi, and its verdict is as good
+        equations such as "u_t = -u_xx", in x or in x and y, as people write them (``primer help equations``); ``at``,
+        ``order``, ``uniform``, ``space``, ``time`` and ``parameters``, for text only, are those of
+        :func:`primer.linearise`. A pencil's entries must be polynomials in xi, and its verdict is as good
         as they are in double precision.
 
     Returns
     -------
-    Verdict
+    Verdict; where values of ``at`` or parameters are arrays, an array of Verdicts of their shape, whose attributes
+    ``kind``, ``exponent``, ``coefficient``, ``bound``, ``unstable`` are arrays too
 
     Raises
     ------
@@ -94,31 +108,51 @@ def verdict(
     >>> [str(verdict(toy, at={"u": u, "v_xx": 0.3}, eps=0.01).kind) for u in (1.5, -0.5)]  # eq. (toy-pde)
     ['well-posed', 'ill-posed']
     """
+    options = {"order": order, "uniform": uniform, "space": space, "time": time}
+    return each(at, parameters, lambda at, parameters: _verdict(pde, at=at, **options, **parameters))
+
+
+def _verdict(pde, **arguments):
     try:
-        exact = exact_symbol(pde, at=at, order=order, **parameters)
+        exact = exact_symbol(pde, **arguments)
     except NotPolynomialError as problem:
         return _undecided(str(problem))
-    return _judged(exact)
+    found = _judged(exact)
+    if exact.uniform:
+        return found
+    note = "The base state varies: this is about short waves at a point."
+    return replace(found, unstable=False, reason=f"{found.reason} {note}")
 
 
 def _judged(symbol):
     D = symbol.determinant
     real = _is_real(D)
+    if symbol.dim == 2:
+        limit, k = on_curves(D)
+        if math.isinf(limit) and limit > 0:
+            return _undecided(f"growth is unbounded near |xi| = {k:.4g}, on a curve where a time derivative drops out")
     law, direction, drift, doubt = (_along_line if symbol.dim == 1 else _in_plane)(symbol, real)
+    where = "" if symbol.dim == 1 else f" in the direction ({direction[0]:.4g}, {direction[1]:.4g})"
+    if law.exponent > BEYOND / 20:
+        reason = (
+            f"Growth is unbounded at every |xi|, near the direction{where[17:]}, where a time derivative drops out."
+        )
+        return Verdict(Kind.ILL_POSED, math.inf, math.inf, direction, math.inf, True, reason)
     if not law.is_bounded:
-        where = "" if symbol.dim == 1 else f" in the direction ({direction[0]:.4g}, {direction[1]:.4g})"
         where += f", approached like |xi|^-{drift}" if drift else ""
         reason = f"{law} as |xi| -> infinity{where}: the shorter the wave the faster it grows, without bound{doubt}."
         return Verdict(Kind.ILL_POSED, law.exponent, law.coefficient, direction, math.inf, True, reason)
     if doubt:
         return _undecided(f"the Newton polygon gives {law}{doubt}")
-    bound, k = supremum(symbol, law, real)
+    bound, k = _supremum(symbol, law, real)
     short = f"for short waves {law}" if law.coefficient else "for short waves Re lambda vanishes"
     if math.isinf(bound):
-        return _undecided(f"growth is unbounded near |xi| = {k:.4g}, where a time derivative drops out ({short})")
+        at = f"near |xi| = {k:.4g}, where a time derivative drops out" if k else "as |xi| -> 0"
+        return _undecided(f"growth is unbounded {at} ({short})")
     if bound > 0:
         place = f"near |xi| = {k:.4g}" if math.isfinite(k) else "as |xi| -> infinity"
-        reason = f"Growth is bounded by {bound:.6g}, reached {place} ({short}): an instability, but not ill-posedness."
+        what = "an instability, but not ill-posedness" if symbol.uniform else "no ill-posedness"
+        reason = f"Growth is bounded by {bound:.6g}, reached {place} ({short}): {what}."
     else:
         reason = f"No perturbation grows: Re lambda <= {bound:.6g} ({short})."
     return Verdict(Kind.WELL_POSED, law.exponent, law.coefficient, direction, bound, bound > 0, reason)
@@ -127,20 +161,45 @@ def _judged(symbol):
 def _along_line(symbol, real):
     found = []
     for sign in (1,) if real else (1, -1):
-        P = {(n, a): c * sign**a for (n, a, _), c in symbol.determinant.items()}
-        found.append((branches(P)[0].law, sign))
+        found.append((branches(_on_line(symbol, sign))[0].law, sign))
     law, sign = max(found, key=lambda item: (item[0], item[1]))
     return law, (float(sign),), Fraction(0), ""
 
 
+def _on_line(symbol, sign):
+    with mp.workdps(DIGITS):
+        return {(n, a): c * sign**a for (n, a, _), c in symbol.determinant.items()}
+
+
+def _supremum(symbol, law, real):
+    """(sup Re lambda, |xi| where), given that the fastest ``law`` is bounded."""
+    D = symbol.determinant
+    known = []
+    with mp.workdps(DIGITS):  # at xi = 0, where P(lambda, 0) may say less than the limit
+        P = {(n, 0): c for (n, a, b), c in D.items() if a == b == 0}
+        if max(P, default=(0, 0))[0] == max(D)[0]:
+            known.append((float(rate(P, mp.mpf(0))), 0.0))
+    known.append((of_law(law), math.inf))
+    if symbol.dim == 1:
+        found = [along_line(_on_line(symbol, sign), real, known) for sign in ((1,) if real else (1, -1))]
+        return max(found, key=lambda item: item[0])
+    known.insert(0, (of_law(worst_law(D, real, inward=True).law), 0.0))
+    known.append(on_curves(D))
+    return in_plane(symbol, real, known)
+
+
 def _in_plane(symbol, real):
     """The fastest law, found exactly, and whether the largest growth at two large wavenumbers exceeds it."""
-    pencil, k = symbol.pencil(), np.array([1e5, 1e7])
+    D, pencil = symbol.determinant, symbol.pencil()
+    far = [math.exp(s) for angle in (0.3, 1.9) for s, _, _ in scales(ray(D, angle))]  # past all scales of the equations
+    k = max([1.0, *far]) * np.array([1e5, 1e7])
     best = max_growth(pencil, k)
-    worst = worst_law(symbol.determinant, real, best.angle)
+    worst = worst_law(D, real, best.angle)
     seen = [max(exact_growth(symbol, xi), 0.0) for xi in (k * best.direction).T]  # without rounding errors
     law = worst.law
-    allowed = 2 * seen[0] if law.is_bounded else 1.2 * law.coefficient * k[1] ** float(law.exponent)
+    allowed = 2 * seen[0]
+    if not law.is_bounded and law.exponent < BEYOND / 20:
+        allowed = 1.2 * law.coefficient * k[1] ** float(law.exponent)
     doubt = ""
     if seen[1] > allowed and seen[1] > 2 * seen[0]:
         doubt = f", but growth of {seen[0]:.4g} at |xi| = {k[0]:g} and {seen[1]:.4g} at {k[1]:g} was computed"
@@ -150,8 +209,9 @@ def _in_plane(symbol, real):
 def _is_real(D):
     """Whether growth is the same at xi and -xi: det M(conj lambda, -xi) is conj det M(lambda, xi) up to a factor."""
     top = max(D)
-    ratio = D[top].conjugate() * (-1) ** sum(top[1:]) / D[top]
-    return all(abs(c.conjugate() * (-1) ** (a + b) - ratio * c) <= 1e-30 * abs(c) for (_, a, b), c in D.items())
+    with mp.workdps(DIGITS):
+        ratio = D[top].conjugate() * (-1) ** sum(top[1:]) / D[top]
+        return all(abs(c.conjugate() * (-1) ** (a + b) - ratio * c) <= 1e-30 * abs(c) for (_, a, b), c in D.items())
 
 
 def _undecided(reason):

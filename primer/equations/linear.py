@@ -3,17 +3,20 @@
 Each derivative is a symbol of its own (u, u_x, v_xx ...), so that linearising is differentiating by each of them.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from functools import lru_cache
 
 import sympy as sp
 
-from primer.equations.text import PDEError, parse, split_name
+from primer.equations.error import PDEError
+from primer.equations.text import Source, understand
+from primer.equations.tree import split_name
+from primer.equations.unknowns import VARIABLES, unknowns, uses
 
 ORDER = 12  # the highest derivative
 OPERATIONS = 400  # the longest expression that the derivative of a bracket may grow to: at 1000 sympy can take minutes
 BITS = 4000  # the largest constant, in bits
 POWER = 1000  # the largest exponent
-VARIABLES = ("x", "y", "t")
 CONSTANTS = {"i": sp.I, "pi": sp.pi}
 
 
@@ -21,14 +24,19 @@ CONSTANTS = {"i": sp.I, "pi": sp.pi}
 class System:
     """Equations F = left - right = 0, and their linearisation.
 
+    Names are those of the tree: the space variables are x, y, z and time is t, whatever the text calls them.
+
     Attributes
     ----------
     text : str
     unknowns : tuple of str     in the order in which they occur, those with a time derivative first
-    parameters : tuple of str   the names that are neither unknowns nor x, y, t
-    dim : int                   the number of space variables: 2 if y occurs, or a derivative by y; else 1
+    parameters : tuple of str   the names that are neither unknowns nor variables
+    dim : int                   the number of space variables: those declared, or x and those of y and z that occur
+    places : dict               where in the text each of the parameters stands first
+    sides : tuple               the F themselves
+    source : Source             what the text calls all of them
     slopes : tuple of dicts     for each equation {(unknown, (n, a, b)): slope}, the slope of F by the unknown's n-th
-                                t-, a-th x- and b-th y-derivative
+                                t-, a-th x- and b-th y-derivative; in three space variables (n, a, b, c)
     """
 
     text: str
@@ -36,73 +44,101 @@ class System:
     parameters: tuple
     dim: int
     slopes: tuple
+    places: dict = field(default_factory=dict, compare=False)
+    sides: tuple = ()
+    source: Source | None = field(default=None, compare=False, repr=False)
+
+    def outside(self, name):
+        """What the text calls a name, in canonical letters."""
+        return self.source.outside(name) if self.source else name
+
+    def said(self, name):
+        """A name as the text first says it."""
+        return self.source.outside(name, said=True) if self.source else name
 
 
-def read(text, given=()):
-    """The :class:`System` of a text. ``given`` are names with values: unknowns only if differentiated by name."""
-    equations = parse(text)
-    uses: dict = {}  # (name, its own derivatives, those of the brackets around it): None, in the order of the text
-    for equation in equations:
-        for side in equation:
-            _collect(side, "", uses)
-    unknowns = _unknowns(uses, len(equations), given)
-    builder = _Builder(text, unknowns)
-    slopes = tuple(_slopes(builder.build(left) - builder.build(right), unknowns) for left, right in equations)
-    names = dict.fromkeys(base for base, _, _ in uses if base not in unknowns and base not in VARIABLES)
-    dim = 2 if any(base == "y" or "y" in own + around for base, own, around in uses) else 1
-    return System(text, unknowns, tuple(names), dim, slopes)
+def read(text, given=(), named=(), space=None, time=None, functions=None):
+    """The :class:`System` of a text.
+
+    Parameters
+    ----------
+    given            names with values by keyword: unknowns only if differentiated by name
+    named            names with values in ``at``
+    space, time, functions    as for :func:`primer.equations.text.understand`
+    """
+    functions = functions or {}
+    try:
+        return _read(text, tuple(given), tuple(named), _hashable(space), time, tuple(functions.items()))
+    except TypeError as error:
+        if "unhashable" not in str(error):
+            raise
+        return _read.__wrapped__(text, tuple(given), tuple(named), _hashable(space), time, tuple(functions.items()))
 
 
-def _collect(node, around, uses):
-    if node.kind == "name" and node.value not in CONSTANTS:
-        uses[*split_name(node.value), around] = None
-    for operand in node.operands:
-        _collect(operand, around + (node.value if node.kind == "derivative" else ""), uses)
+def _hashable(space):
+    return tuple(space) if isinstance(space, list) else space
 
 
-def _unknowns(uses, number, given):
-    """The names differentiated; and, where those are too few, names in differentiated brackets or in constraints."""
-    order = [name for name in dict.fromkeys(base for base, _, _ in uses) if name not in VARIABLES]
-    evolved = {base for base, own, around in uses if "t" in own + around}
-    order.sort(key=lambda name: name not in evolved)
-    direct = {base for base, own, _ in uses if own}
-    wider: tuple[set, ...] = (
-        set(),
-        {base for base, _, around in uses if "t" in around},
-        {base for base, _, around in uses if around},
-        {base for base, _, _ in uses},
-    )
-    for others in wider:
-        unknowns = tuple(name for name in order if name in direct or (name in others and name not in given))
-        if len(unknowns) == number:
-            return unknowns
-    unknowns = tuple(name for name in order if name in direct)
-    if not unknowns:
-        raise PDEError("nothing is differentiated: derivatives are written u_t, v_xx, (u*v)_x")
-    raise PDEError(
-        f"{number} equation{'s' * (number > 1)} for {len(unknowns)} unknown{'s' * (len(unknowns) > 1)} "
-        f"({', '.join(unknowns)}): there must be as many of one as of the other"
-    )
+@lru_cache(maxsize=64)
+def _read(text, given, named, space, time, functions):
+    source = understand(text, space, time, given, named, dict(functions))
+    used = uses(source.equations, CONSTANTS)
+    found = unknowns(used, len(source.equations), {source.inside(name) for name in given}, source.outside)
+    builder = _Builder(source, found)
+    number = 4 if source.dim == 3 else 3
+    sides = tuple(builder.build(left) - builder.build(right) for left, right in source.equations)
+    slopes = tuple(_slopes(F, found, number) for F in sides)
+    names: dict = {}
+    for (base, _, _), place in used.items():
+        if base not in found and base not in VARIABLES:
+            names.setdefault(base, place)
+    return System(source.text, found, tuple(names), source.dim, slopes, names, sides, source)
 
 
-def _slopes(F, unknowns):
+def _slopes(F, unknowns, number):
     found = {}
     for symbol in sorted(F.free_symbols, key=str):
         base, letters = split_name(symbol.name)
         slope = sp.diff(F, symbol) if base in unknowns else 0
         if slope != 0:
-            found[base, tuple(letters.count(c) for c in "txy")] = slope
+            found[base, tuple(letters.count(c) for c in "txyz"[:number])] = slope
     return found
+
+
+class sign(sp.Function):
+    """The sign of a real number; its slope is 0, but where the number is 0 it has none."""
+
+    @classmethod
+    def eval(cls, z):
+        """Of a number, sympy's sign."""
+        return sp.sign(z) if z.is_number and z.is_extended_real else None
+
+    def fdiff(self, argindex=1):
+        """The slope."""
+        return slope_of_sign(self.args[0])
+
+
+class slope_of_sign(sp.Function):
+    """0 where its argument is not 0."""
+
+    @classmethod
+    def eval(cls, z):
+        """Of a number."""
+        return (sp.nan if z.is_zero else sp.S.Zero) if z.is_number and z.is_zero is not None else None
+
+
+# sqrt(z^2) has a derivative that can be evaluated where z is real; that of sympy's Abs has not.
+_CALLS = {"abs": lambda z: sp.sqrt(z**2), "sign": sign}
 
 
 class _Builder:
     """Sympy expressions from nodes, every operation checked before it is done: no number can grow out of hand."""
 
-    def __init__(self, text, unknowns):
-        self.text, self.unknowns = text, unknowns
+    def __init__(self, source, unknowns):
+        self.source, self.unknowns = source, unknowns
 
     def fail(self, problem, node):
-        raise PDEError(problem, self.text, node.place)
+        raise PDEError(problem, self.source.text, node.place)
 
     def build(self, node):
         build = {"+": self.sum, "*": self.product, "-": self.minus, "/": self.reciprocal, "^": self.power}
@@ -125,11 +161,8 @@ class _Builder:
         if node.value in CONSTANTS:
             return CONSTANTS[node.value]
         base, letters = split_name(node.value)
-        stem, _, subscript = node.value.rpartition("_")
-        if stem in self.unknowns and "z" in subscript and set(subscript) <= set("xyzt"):
-            self.fail("a third space variable: there are x and y only", node)
         if base in VARIABLES and letters:
-            self.fail(f"{base} is an independent variable and cannot be differentiated", node)
+            self.fail(f"{self.source.outside(base)} is an independent variable and cannot be differentiated", node)
         return self.symbol(base, letters, node)
 
     def symbol(self, base, letters, node):
@@ -162,8 +195,7 @@ class _Builder:
 
     def call(self, node):
         argument = self.build(node.operands[0])
-        # sqrt(z^2) has a derivative that can be evaluated where z is real; that of sympy's Abs has not.
-        return sp.sqrt(argument**2) if node.value == "abs" else getattr(sp, node.value)(argument)
+        return (_CALLS.get(node.value) or getattr(sp, node.value))(argument)
 
     def derivative(self, node):
         value = self.build(node.operands[0])

@@ -1,65 +1,58 @@
-"""Equations as text: a recursive-descent parser. Nothing is evaluated or executed here; the result is a plain tree.
+"""Equations as text: their trees, their variables and their names. Nothing is evaluated or executed.
 
-Grammar, blanks aside::
-
-    equations  = equation { (";" | new line) equation }
-    equation   = sum "=" sum
-    sum        = product { ("+" | "-") product }
-    product    = signed { ("*" | "/") signed }
-    signed     = ("+" | "-") signed | power
-    power      = primary [ ("^" | "**") signed ]
-    primary    = number | name | [ function ] "(" sum ")" [ derivatives ]
-
-A line without a left side and "=" of its own continues the one before. A name's subscript of the letters x, y, t
-differentiates: u_t, v_xx, u_xyt; so does one after a bracket, the "derivatives" of the grammar: (h*u)_x.
+See :mod:`primer.equations.grammar` for the grammar and ``primer help equations`` for the language.
 """
 
-import re
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
-FUNCTIONS = ("sin", "cos", "tan", "exp", "log", "sqrt", "sinh", "cosh", "tanh", "abs")
-LENGTH, TOKENS, DEPTH, EQUATIONS, NAME = 4000, 600, 80, 6, 40  # far beyond what a person would write by hand
+from primer.equations.error import PDEError
+from primer.equations.functions import FUNCTIONS
+from primer.equations.given import Given
+from primer.equations.grammar import Parser
+from primer.equations.sympy_text import texts
+from primer.equations.tokens import tokens
+from primer.equations.tree import Node, split_name
+from primer.equations.variables import Variables, canonical, variables
 
-_TOKEN = re.compile(
-    r"""[ \t\r]*(?:
-    (?P<number>(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)(?P<imaginary>[ij](?!\w))?
-  | (?P<name>[^\W\d_]\w*)
-  | (?P<subscript>_[xyt]+(?!\w))
-  | (?P<operator>\*\*|[-+*/^=();\n]))""",
-    re.VERBOSE,
-)
-_SPOKEN = str.maketrans({"−": "-", "·": "*", "×": "*"})  # noqa: RUF001
+LENGTH = 8000  # far beyond what a person would write by hand
 
 
-class PDEError(ValueError):
-    """The text of an equation, or what goes with it, cannot be used; the message shows the text and the place.
+@dataclass(frozen=True, eq=False)
+class Source:
+    """What a text says.
 
-    Section A2.1 needs equations that determine their unknowns, in the notation of ``primer verdict``.
-
-    >>> from primer import verdict
-    >>> try:
-    ...     verdict("u_t = foo(u)")
-    ... except PDEError as error:
-    ...     print("foo" in str(error))
-    True
+    Attributes
+    ----------
+    text        as given, or several joined
+    equations   pairs (left, right) of nodes, in which the variables are x, y, z and t
+    variables   the :class:`Variables`: what the text calls them, and all other names
     """
 
-    def __init__(self, problem: str, text: str = "", place: int | None = None) -> None:
-        super().__init__(problem if place is None else f"{problem}\n{_marked(text, place)}")
+    text: str
+    equations: tuple
+    variables: Variables
 
+    @property
+    def dim(self):
+        """The number of space variables."""
+        return self.variables.dim
 
-@dataclass(frozen=True)
-class Node:
-    """One node of the tree: what it is, its operands, and its place in the text.
+    def outside(self, name, said=False):
+        """What the text calls a name of the tree, in canonical letters: nu; or as it is first ``said`` there: ν."""
+        return self.variables.outside(name, said)
 
-    kind is "number" (value: the digits, and whether i follows), "name" (the name), "+", "*" (any number of operands),
-    "-" (sign), "/" , "^", "call" (value: the function) or "derivative" (value: the letters).
-    """
-
-    kind: str
-    place: int
-    value: object = None
-    operands: tuple = ()
+    def inside(self, name):
+        """What the tree calls a name of the text, such as "u" or "c_rr"; None for what is no name."""
+        try:
+            first, *rest = tokens(name, self.variables, {canonical(name)})
+        except PDEError:
+            return None
+        if first.kind != "name" or len(rest) != 1:
+            return None
+        base, by, _, _ = first.value
+        if by and self.variables.inside(whole(base, by)) in self.variables.spelt:
+            return self.variables.inside(whole(base, by))  # a parameter D_x
+        return self.variables.inside(base, by)
 
 
 def parse(text):
@@ -69,170 +62,95 @@ def parse(text):
     ------
     PDEError    with the text and a caret under the place where it goes wrong
     """
+    return list(understand(text).equations)
+
+
+def parse_expression(text, source=None):
+    """The node of an expression such as "a - cos(x)", which has no "=", in the variables of a :class:`Source`."""
+    known = source.variables if source else variables()
+    return Parser(_checked("an expression", "a - cos(x)", text), tokens(text, known, known.valued), known).expression()
+
+
+def understand(text, space=None, time=None, given=(), named=(), functions=None):
+    """The :class:`Source` of a text.
+
+    Parameters
+    ----------
+    text                    equations; or a list of texts, sympy equations, or a list of these
+    space, time             what the text calls its variables: "r", "x, z"; by default x, with y and z if they occur,
+                            and t
+    given                   the names of parameters that have a value by keyword
+    named                   other names that have a value
+    functions : dict        texts or functions of Python by name
+
+    Raises
+    ------
+    PDEError    with the text and a caret under the place where it goes wrong
+    """
+    text, space, time = texts(text, space, time)
+    _checked("the equations", "u_t = u_xx", text)
+    known = variables(space, time)
+    given = {canonical(name) for name in given if isinstance(name, str)}
+    named = given | {canonical(name) for name in named if isinstance(name, str)}
+    functions = {canonical(name): function for name, function in (functions or {}).items()}
+    found = tokens(text, known, named)
+    others = {
+        name: tokens(_checked(name, "u^2", function), known, named)
+        for name, function in functions.items()
+        if isinstance(function, str)
+    }
+    found = _with_parameters(found, given)
+    everything = [token for each in (found, *others.values()) for token in each]
+    evolved = {token.value[0] for token in everything if token.kind == "name" and token.value[1]}
+    used = {name for token in everything if token.kind in ("name", "subscript") for name in _variables(token, known)}
+    known = replace(
+        known.narrowed(used),
+        plain=frozenset({"e", "i", "pi"} & (evolved | named)),
+        evolved=frozenset(evolved),
+        valued=frozenset(named),
+    )
+    makers = Given(functions, known, others)
+    equations = Parser(text, found, known, makers).equations()
+    makers.check_used()
+    return Source(text, tuple(equations), known)
+
+
+def whole(base, by):
+    """A name with its subscript of variables."""
+    return f"{base}_{''.join(by)}" if by else base
+
+
+def _with_parameters(found, given):
+    """The tokens, with D_x a name of its own where it has a value by keyword and D is nothing else."""
+    bases: dict = {}
+    for token in found:
+        if token.kind == "name":
+            bases.setdefault(token.value[0], set()).add(whole(*token.value[:2]))
+    own = {base for base, wholes in bases.items() if wholes <= given}
+    return [
+        token._replace(value=(whole(*token.value[:2]), (), *token.value[2:]))
+        if token.kind == "name" and token.value[1] and token.value[0] in own
+        else token
+        for token in found
+    ]
+
+
+def _variables(token, known):
+    """The variables that a token makes use of: in d/dy, u_y, y, and dy(u)."""
+    if token.kind == "subscript":
+        return token.value[0] or ()
+    base, by, _, _ = token.value
+    more = known.derivatives(base[1:]) if base[0] == "d" and len(base) > 1 else None
+    return (base, *by, *(more or ()))
+
+
+def _checked(what, example, text):
+    """The text, if it is one and not too long."""
     if not isinstance(text, str):
-        raise TypeError(f"the equations must be a string such as 'u_t = u_xx', got {type(text).__name__}")
+        raise TypeError(f"{what} must be a string such as {example!r}, got {type(text).__name__}")
     if len(text) > LENGTH:
         raise PDEError(f"the text has {len(text)} characters, more than the {LENGTH} allowed")
-    return _Parser(text, list(_tokens(text.translate(_SPOKEN)))).equations()
+    return text
 
 
-def split_name(name):
-    """("v", "xx") for "v_xx"; ("eps", "") for a name without a subscript of the letters x, y, t."""
-    base, _, subscript = name.rpartition("_")
-    return (base, subscript) if base and re.fullmatch("[xyt]+", subscript) else (name, "")
-
-
-def _marked(text, place):
-    """The line of the text that holds the place, cut to a window, and a caret under it."""
-    start = text.rfind("\n", 0, place) + 1
-    line, column = text[start:].partition("\n")[0], place - start
-    left = max(0, column - 50)
-    shown = "".join(c if c.isprintable() else " " for c in line[left : left + 80])
-    return f"    {shown}\n    {' ' * (column - left)}^"
-
-
-def _tokens(text):
-    place = depth = count = 0
-    while match := _TOKEN.match(text, place):
-        kind = match.lastgroup or ""  # which no match is without
-        value = match[kind]
-        if kind == "imaginary":
-            kind, value = "number", match["number"]
-        if kind == "name" and not value.isidentifier():
-            odd = next(n for n, _ in enumerate(value) if not value[: n + 1].isidentifier())
-            raise PDEError(f"unexpected character {value[odd]!r}", text, match.start("name") + odd)
-        if kind == "name" and ("__" in value or value.endswith("_")):
-            raise PDEError("a name with two underscores together, or with one at its end", text, match.start("name"))
-        if kind == "name" and len(value) > NAME:
-            raise PDEError(f"a name longer than the {NAME} characters allowed", text, match.start("name"))
-        start, place, count = match.start(kind), match.end(), count + 1
-        depth += (value == "(") - (value == ")")
-        if count > TOKENS:
-            raise PDEError(f"the text has more than the {TOKENS} symbols allowed", text, start)
-        if value != "\n" or (depth <= 0 and _begins_equation(text, place)):
-            yield kind, value, start, bool(match["imaginary"])
-    rest = text[place:].lstrip(" \t\r")
-    if rest:
-        start = len(text) - len(rest)
-        raise PDEError(f"unexpected character {rest[0]!r}", text, start)
-    yield "end", "", len(text), False
-
-
-def _begins_equation(text, place):
-    """Whether the line that starts here is not the continuation of the one before: it has its own left side."""
-    left, equals, _ = re.split("[;\n]", text[place:])[0].partition("=")
-    return bool(equals and left.strip(" \t\r"))
-
-
-class _Parser:
-    def __init__(self, text, tokens):
-        self.text, self.tokens, self.next, self.depth = text, tokens, 0, 0
-
-    def fail(self, problem, place=None):
-        raise PDEError(problem, self.text, self.tokens[self.next][2] if place is None else place)
-
-    def at(self, *values):
-        kind, value, _, _ = self.tokens[self.next]
-        return kind == "operator" and value in values
-
-    def take(self):
-        token = self.tokens[self.next]
-        self.next += 1
-        return token
-
-    def equations(self):
-        found: list[tuple] = []
-        while True:
-            while self.at(";", "\n"):
-                self.take()
-            if self.tokens[self.next][0] == "end":
-                break
-            if len(found) == EQUATIONS:
-                self.fail(f"more than the {EQUATIONS} equations allowed")
-            found.append(self.equation())
-        if not found:
-            raise PDEError("the text holds no equation")
-        return found
-
-    def equation(self):
-        left = self.sum()
-        if not self.at("="):
-            self.fail("expected '=' or an operator" if not self._is_operand() else "expected an operator, as in 2*u")
-        self.take()
-        right = self.sum()
-        if self.at("="):
-            self.fail("an equation has one '='; separate equations by ';'")
-        if not self.at(";", "\n") and self.tokens[self.next][0] != "end":
-            self.fail("expected an operator, as in 2*u" if self._is_operand() else "unexpected ')'")
-        return left, right
-
-    def _is_operand(self):
-        return self.tokens[self.next][0] in ("number", "name") or self.at("(")
-
-    def sum(self):
-        self.depth += 1  # which the first sign or operand looks at
-        place, terms = self.tokens[self.next][2], [self.product()]
-        while self.at("+", "-"):
-            _, sign, at, _ = self.take()
-            term = self.product()
-            terms.append(Node("-", at, operands=(term,)) if sign == "-" else term)
-        self.depth -= 1
-        return terms[0] if len(terms) == 1 else Node("+", place, operands=tuple(terms))
-
-    def product(self):
-        place, factors = self.tokens[self.next][2], [self.signed()]
-        while self.at("*", "/"):
-            _, sign, at, _ = self.take()
-            factor = self.signed()
-            factors.append(Node("/", at, operands=(factor,)) if sign == "/" else factor)
-        return factors[0] if len(factors) == 1 else Node("*", place, operands=tuple(factors))
-
-    def signed(self):
-        self.depth += 1
-        if self.depth > DEPTH:
-            self.fail(f"brackets and signs are nested more than the {DEPTH} levels allowed")
-        if self.at("+", "-"):
-            _, sign, at, _ = self.take()
-            operand = self.signed()
-            node = Node("-", at, operands=(operand,)) if sign == "-" else operand
-        else:
-            node = self.primary()
-            if self.at("^", "**"):
-                _, _, at, _ = self.take()
-                node = Node("^", at, operands=(node, self.signed()))
-        self.depth -= 1
-        return node
-
-    def primary(self):
-        kind, value, place, imaginary = self.take()
-        if kind == "number":
-            return Node("number", place, (value, imaginary))
-        if kind == "name":
-            if not self.at("("):
-                return Node("name", place, value)
-            if value not in FUNCTIONS:
-                known = ", ".join(FUNCTIONS)
-                self.fail(f"{_short(value)} is not a known function ({known}); a product is written with '*'", place)
-            opened = self.take()[2]
-            return self.differentiated(Node("call", place, value, (self.bracket(opened),)))
-        if kind == "operator" and value == "(":
-            return self.differentiated(self.bracket(place))
-        self.next -= 1
-        return self.fail("expected a number, a name or '('" if kind != "subscript" else "a subscript needs a name")
-
-    def bracket(self, opened):
-        inside = self.sum()
-        if not self.at(")"):
-            self.fail("expected ')' to close this bracket", opened)
-        self.take()
-        return inside
-
-    def differentiated(self, node):
-        if self.tokens[self.next][0] != "subscript":
-            return node
-        _, letters, place, _ = self.take()
-        return Node("derivative", place, letters[1:], (node,))
-
-
-def _short(name):
-    return repr(name if len(name) <= 30 else name[:27] + "...")
+__all__ = ["FUNCTIONS", "LENGTH", "Node", "PDEError", "Source", "parse", "parse_expression", "split_name", "understand"]

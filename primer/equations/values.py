@@ -1,6 +1,7 @@
 """Numbers for the names in a linearised system: base-state values and parameters, to many digits."""
 
 import numbers
+import re
 from fractions import Fraction
 from typing import Any
 
@@ -9,31 +10,67 @@ import numpy as np
 import sympy as sp
 
 from primer.checks import shown
-from primer.equations.text import PDEError, split_name
+from primer.equations.error import PDEError, ask
+from primer.equations.tree import split_name
+from primer.equations.variables import canonical
 
 BITS = 100_000  # the largest exact power, in bits: 3^(10^9) would take for ever
 LARGEST = 1e6  # the largest argument of a function: the exponential of this has half a million digits before its point
 
 
-def checked(system, at, parameters):
-    """{name: sympy number} from the base state ``at`` and the keyword ``parameters``."""
+def checked(system, at, parameters, uniform=False):
+    """{name: sympy number} from the base state ``at`` and the keyword ``parameters``; names as in the tree.
+
+    ``uniform`` gives every derivative of an unknown the value 0.
+    """
     at = {} if at is None else at
     if not isinstance(at, dict):
         raise TypeError(f"at must be a dict of base-state values such as {{'u': -0.5}}, got {shown(at)}")
     values = {}
-    for name, value in [*at.items(), *parameters.items()]:
-        base, letters = split_name(name) if isinstance(name, str) else (name, "")
+    for key, value in [*at.items(), *parameters.items()]:
+        name = _inside(system, key)
+        base, letters = split_name(name)
         if base in system.unknowns:
-            if name in parameters:
-                raise PDEError(f"{name} is an unknown or its derivative: give its base value as at={{'{name}': ...}}")
+            if key in parameters:
+                raise PDEError(f"{key} is an unknown or its derivative: give its base value as {ask('base', key)}")
             name = f"{base}_{''.join(sorted(letters))}" if letters else base
-        elif name not in (*system.parameters, *"xyt"):
-            known = ", ".join([*system.unknowns, *system.parameters])
-            raise PDEError(f"{shown(name)} has a value but does not occur in the equations, which name {known}")
+        elif name not in (*system.parameters, *"xyzt"):
+            known = ", ".join(map(system.said, [*system.unknowns, *system.parameters]))
+            raise PDEError(f"{shown(key)} has a value but does not occur in the equations, which name {known}")
         if name in values:
-            raise PDEError(f"{name} has two values")
-        values[name] = _exact(name, value)
+            raise PDEError(f"{system.said(name)} has two values")
+        values[name] = _exact(key, value)
+        if uniform and base in system.unknowns and letters and values[name] != 0:
+            raise PDEError(f"{key} = {shown(value)} and {ask('uniform')} contradict each other: there it is 0")
+    if uniform:
+        symbols = {s.name for slopes in system.slopes for slope in slopes.values() for s in slope.free_symbols}
+        for name in symbols - values.keys():
+            if split_name(name)[0] in system.unknowns and split_name(name)[1]:
+                values[name] = sp.S.Zero
     return values
+
+
+def _inside(system, key):
+    """What the tree calls the name of a value, in whichever alphabet: nu is ν, and eps is ε where there is no eps."""
+    if not isinstance(key, str):
+        return ""
+    name = system.source.inside(key) or ""
+    known = (*system.unknowns, *system.parameters)
+    if split_name(name)[0] in known:
+        return name
+    variables = system.source.variables
+    if not variables.declared:  # a place, or a derivative across, that does not matter
+        base, letters = split_name(canonical(key))
+        if base in ("x", "y", "z") and not letters:
+            return base
+        if base in known and letters:
+            unused = dict(zip((v for v in "yz" if v not in variables.inner), "yz"[variables.dim - 1 :], strict=False))
+            return f"{base}_{''.join(variables.inner.get(v) or unused[v] for v in letters)}"
+    for short, long in (("eps", "epsilon"), ("epsilon", "eps")):
+        other = re.sub(rf"^{short}(?=_|$|\d)", long, name)
+        if other != name and split_name(other)[0] in known:
+            return other
+    return name
 
 
 def _exact(name, value: Any):
@@ -105,7 +142,7 @@ def evaluated(expression, values):
             (argument,) = (value(a) for a in node.args)
             if abs(argument) > LARGEST:
                 raise PDEError(f"{node.func.__name__} of a number above {LARGEST:g} in the linearised equations")
-            return getattr(mp, node.func.__name__)(argument)
+            return _function(node.func.__name__, argument)
         return mp.mpmathify(node.evalf(mp.mp.dps))  # pi, e, i
 
     try:
@@ -117,6 +154,17 @@ def evaluated(expression, values):
     if not mp.isfinite(number) or abs(number) > 1e100:
         raise PDEError(f"the base state makes {_short(expression)} {mp.nstr(number, 3)}: not a number to work with")
     return number
+
+
+def _function(name, argument):
+    """A function of the language, at mpmath's working precision."""
+    if name not in ("sign", "slope_of_sign"):
+        return getattr(mp, name)(argument)
+    if mp.im(argument) != 0:
+        raise PDEError("the sign of a complex number, or its absolute value, has no slope")
+    if name == "slope_of_sign" and argument == 0:
+        raise ZeroDivisionError
+    return mp.sign(argument.real) if name == "sign" else mp.mpf(0)
 
 
 def _short(expression):

@@ -33,12 +33,12 @@ def ask_06_1(seed: int = 0) -> str:
     mu = _first(seed)["mu"]
     return (
         f"A Coulomb material has mu = {mu}. At how many degrees from the major compressive axis does the wavevector of "
-        "the fastest growing short wave point? (Between nought and a right angle.)"
+        "the fastest growing short wave point? (Between nought and a right angle, to two decimal places.)"
     )
 
 
 def check_06_1(answer: float, seed: int = 0) -> Feedback:
-    """Whether ``answer`` is arccos(-tan(arcsin(mu)/2))/2 in degrees, to one per cent; a ``Feedback``.
+    """Whether ``answer`` is arccos(-tan(arcsin(mu)/2))/2 in degrees, to 2 in 10,000; a ``Feedback``.
 
     Without rate dependence the growth rate is -(t/(rho phi)) |xi|^2 x (x + mu)/(1 + mu x), largest at that x.
     """
@@ -53,6 +53,10 @@ def check_06_1(answer: float, seed: int = 0) -> Feedback:
         degrees(x),
         "inside the wedge of growing directions, -mu < x < 0, but not quite half-way.",
         {
+            "half-way between the edges of the wedge is close, but not where the growth rate is largest.": (
+                (degrees(0) + degrees(-mu)) / 2,
+                degrees(-mu / 2),
+            ),
             "that is x = 0, where the wedge of growing directions begins; there the growth rate is zero.": degrees(0),
             "that is x = -mu, where the wedge ends; there the growth rate is zero.": degrees(-mu),
             "the sign: the growing directions have x = cos 2 theta < 0.": degrees(-x),
@@ -60,6 +64,7 @@ def check_06_1(answer: float, seed: int = 0) -> Feedback:
             "in degrees, not in radians.": math.radians(degrees(x)),
         },
         "the growth rate is proportional to -x (x + mu)/(1 + mu x) with x = cos 2 theta: where is that largest?",
+        rtol=2e-4,
     )
 
 
@@ -118,6 +123,12 @@ def check_06_3(answer: str, seed: int = 0) -> Feedback:
     """Whether ``answer`` is the kind that the closed forms of section 4 give; a ``Feedback``."""
     kind = rheology(*_third(seed)).kind
     hints = {text: hint for other, (text, hint) in _KINDS.items() if other != kind}
+    damped, bounded, _ = (text for text, _ in _KINDS.values())
     return choose(
-        answer, _KINDS[kind][0], "positive growth and growth without end are two questions, and you asked both.", hints
+        answer,
+        _KINDS[kind][0],
+        "positive growth and growth without end are two questions, and you asked both.",
+        hints,
+        also={"stable": damped, "unstable": bounded},
+        half=("well posed", (damped, bounded), "well posed, and does some wave grow? Ask for its growth rate."),
     )

@@ -3,10 +3,11 @@
 import math
 
 from primer.exercises.answers import Feedback, check, choose, variant
+from primer.exercises.forms import term
 
 
 def _first(seed):
-    return variant("08_1", seed, nu=(2, 1, 0.5, 3), delta=(0.05, 0.02, 0.1, 0.04))
+    return variant("08_1", seed, nu=(3, 4, 1.5, 5), delta=(0.05, 0.02, 0.1, 0.04))
 
 
 def ask_08_1(seed: int = 0) -> str:
@@ -61,9 +62,8 @@ def check_08_2(answer: float, seed: int = 0) -> Feedback:
         math.sqrt(math.log(1 / noise) / t),
         "and a thousand times better instrument moves it by a few waves: the logarithm under a square root.",
         {
-            "that is the square of it.": math.log(1 / noise) / t,
+            "that is the square of it: a wave grows like exp(k^2 t), not exp(k t).": math.log(1 / noise) / t,
             "growth is exp(k^2 t), not 10^(k^2 t).": math.sqrt(math.log10(1 / noise) / t),
-            "a wave grows like exp(k^2 t), not exp(k t).": math.log(1 / noise) / t**2,
         },
         "marched back, wave k of the noise is exp(k^2 t) times what it was. When is that the inverse of the noise?",
     )
@@ -100,4 +100,5 @@ def ask_08_3(seed: int = 0) -> str:
 def check_08_3(answer: str, seed: int = 0) -> Feedback:
     """Whether ``answer`` is the term that bounds the growth as xi -> infinity; a ``Feedback``."""
     right, wrong = _TERMS[_third(seed)]
-    return choose(answer, right, "growth is bounded now, and the bound goes to infinity as delta goes to zero.", wrong)
+    praise = "growth is bounded now, and the bound goes to infinity as delta goes to zero."
+    return choose(answer, right, praise, wrong, form=term)

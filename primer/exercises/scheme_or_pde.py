@@ -41,13 +41,15 @@ def check_04_1(answer: float, seed: int = 0) -> Feedback:
     )
 
 
-# (a, N, times): blow-ups from seeds of 1e-4 and 1e-12 of the mode N/2 - 1 of v, in steps of 5e-4.
+# (a, N, times): blow-ups from seeds of 1e-4 and 1e-12 of the mode N/2 - 1 of v, in steps of 5e-4. Of these no single
+# one gives the rate by chance: the second comes at less than two and a half times the first; at three times it would.
 _MEASURED = (
     (0.0, 60, 8.76, 20.08),
-    (0.3, 60, 26.47, 81.68),
-    (0.1, 60, 9.97, 28.34),
     (-0.1, 56, 9.47, 21.62),
-    (0.4, 70, 15.54, 51.16),
+    (-0.3, 50, 9.37, 22.67),
+    (-0.4, 48, 9.07, 22.2),
+    (-0.5, 46, 9.14, 22.45),
+    (0.4, 90, 4.58, 11.33),
 )
 
 
@@ -66,7 +68,7 @@ def ask_04_2(seed: int = 0) -> str:
 
 
 def check_04_2(answer: float, seed: int = 0) -> Feedback:
-    """Whether ``answer`` is 8 ln(10) over the time between, to four per cent; a ``Feedback``."""
+    """Whether ``answer`` is 8 ln(10) over the time between, to two per cent; a ``Feedback``."""
     given = _second(seed)
     between = given["late"] - given["soon"]
     return check(
@@ -76,12 +78,13 @@ def check_04_2(answer: float, seed: int = 0) -> Feedback:
         {
             "growth is exp(rate t), not 10^(rate t).": 8 / between,
             "that is a time for each factor of e: the rate is its inverse.": between / (8 * math.log(10)),
-            "one blow-up does not tell: the first growth is not at this rate. Take the difference of the two.": 12
-            * math.log(10)
-            / given["late"],
+            "one blow-up does not tell: the first growth is not at this rate. Take the difference of the two.": (
+                12 * math.log(10) / given["late"],
+                4 * math.log(10) / given["soon"],
+            ),
         },
         "the second seed is 10^8 times smaller, and that took exp(rate t) the time between the two to make up for.",
-        rtol=0.04,
+        rtol=0.02,
     )
 
 

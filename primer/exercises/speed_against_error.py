@@ -60,7 +60,10 @@ def ask_05_2(seed: int = 0) -> str:
 
 
 def check_05_2(answer: float, seed: int = 0) -> Feedback:
-    """Whether ``answer`` is ratio^(3/order), to 2 in 1000; a ``Feedback``. Work is points times steps, N^3."""
+    """Whether ``answer`` is ratio^(3/order), to 2 in 1000 or rounded to two digits; a ``Feedback``.
+
+    Work is points times steps, N^3.
+    """
     given = _second(seed)
     p, ratio = given["order"], given["ratio"]
     return check(
@@ -74,6 +77,7 @@ def check_05_2(answer: float, seed: int = 0) -> Feedback:
         },
         "how many times as many points? How many times as many steps? Multiply.",
         rtol=2e-3,
+        digits=2,
     )
 
 
@@ -81,7 +85,7 @@ _LARGEST = {"fourth-order": 16 / 3, "sixth-order": 272 / 45, "Fourier": math.pi*
 
 
 def _third(seed):
-    return variant("05_3", seed, space=tuple(_LARGEST), a=(0.5, 0.2, 0.6), eps=(0.01, 0.02))
+    return variant("05_3", seed, space=tuple(_LARGEST), a=(0.6, 0.2, 0.4), eps=(0.01, 0.02))
 
 
 def ask_05_3(seed: int = 0) -> str:

@@ -54,9 +54,14 @@ def check_00_2(answer: str, seed: int = 0) -> Feedback:
     Well posed if a > 1, for then u > 0. If not, the grid shows it from ``grid_threshold(a, eps).n`` points on.
     """
     a, n = _second(seed)["state"]
+    more = {
+        "also": {"hidden": HIDDEN},
+        "half": ("ill posed", (SEEN, HIDDEN), "ill posed, and what does the grid make of it?"),
+    }
     if a > 1:
         hint = "is there an x where a - cos x is negative? The grid has no say in that."
-        return choose(answer, WELL, "u > 0 everywhere, and no grid is needed to see that.", {SEEN: hint, HIDDEN: hint})
+        praise = "u > 0 everywhere, and no grid is needed to see that."
+        return choose(answer, WELL, praise, {SEEN: hint, HIDDEN: hint}, **more)
     truth = SEEN if n >= grid_threshold(a).n else HIDDEN
     hints = {
         WELL: "the steady state has u < 0 somewhere. A quiet run does not make equations well posed.",
@@ -64,4 +69,5 @@ def check_00_2(answer: str, seed: int = 0) -> Feedback:
         HIDDEN: "go there in the explorer and read the sentence: how fast does the fastest mode on this grid grow?",
     }
     del hints[truth]
-    return choose(answer, truth, "the equations are the same on every grid; what differs is what it shows.", hints)
+    praise = "the equations are the same on every grid; what differs is what it shows."
+    return choose(answer, truth, praise, hints, **more)

@@ -127,4 +127,11 @@ def check_02_4(answer: str, seed: int = 0) -> Feedback:
     """Whether ``answer`` is what section A2.1 makes of the equation; a ``Feedback``."""
     truth, hint = _EQUATIONS[_fourth(seed)]
     hints = {option: hint for option in (STABLE, UNSTABLE, ILL) if option != truth}
-    return choose(answer, truth, "only the real part counts, and only whether it has a ceiling.", hints)
+    return choose(
+        answer,
+        truth,
+        "only the real part counts, and only whether it has a ceiling.",
+        hints,
+        also={"stable": STABLE, "unstable": UNSTABLE},
+        half=("well posed", (STABLE, UNSTABLE), "well posed, and does anything grow?"),
+    )

@@ -1,6 +1,7 @@
 """The equations of motion (12a-e) as text, linearised by machine: a second route to the pencil, apart from (e26)."""
 
 from dataclasses import replace
+from typing import Any
 
 from primer.checks import shown
 from primer.granular.state import admit
@@ -48,7 +49,7 @@ def derive(law, state, order="maximal"):
     kept = [j for j in range(5) if not (incompressible and j == 2)]
     here = state.p, state.phi, state.I
     names = [name + partial for name in ("Y", "f") for partial in ("", "_p", "_phi", "_I")]
-    numbers = {name: float(getattr(law, name)(*here)) for name in names}
+    numbers: dict[str, Any] = {name: float(getattr(law, name)(*here)) for name in names}
     numbers |= {"p_0": state.p, "phi_0": state.phi, "I_0": state.I, "d": state.d, "rho": state.rho}
     shear, spread = float(state.D), float(state.div_u(law)) / 2
     fields = [name for name in ("u", "v", "phi", "p", "psi") if not (incompressible and name == "phi")]

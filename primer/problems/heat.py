@@ -11,12 +11,12 @@ from scipy.special import beta
 
 from primer.arithmetic import constant, points, sin
 from primer.checks import affordable, broadcast, function, integer, real, real_array, shown
+from primer.equations.evaluate import Known, Scalars, tendencies
+from primer.equations.slopes import about
+from primer.equations.stages import Evolution, evolution
 from primer.types import ArrayLike, Derivative, Multiplier, Numbers
 
-
-def tendency(u_xx):
-    """u_t of eq. (backward-heat), point by point: the one text of the equation."""
-    return -u_xx
+_NOTHING = Known(Scalars(np.dtype(float)), (), ())  # what the right-hand side needs of x: it depends on u_xx alone
 
 
 @dataclass(frozen=True)
@@ -43,6 +43,8 @@ class BackwardHeat:
     xi: int = 1
     amplitude: float = 1.0
     fields: ClassVar[tuple[str, ...]] = ("u",)
+    text: ClassVar[str] = "u_t = -u_xx"
+    parameters: ClassVar[dict] = {}
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "xi", integer("xi", self.xi, least=1))
@@ -69,8 +71,16 @@ class BackwardHeat:
         self, x: ArrayLike, state: Sequence[np.ndarray], derivative: Derivative, forcing: None = None
     ) -> tuple[np.ndarray]:
         """(u_t,) of eq. (backward-heat), where ``derivative(f, m)`` gives the m-th x-derivative of a field on x."""
-        (u,) = state
-        return (tendency(derivative(u, 2)),)
+        (u_t,) = tendencies(self.evolution, {}, state, derivative, _NOTHING)
+        return (u_t,)
+
+    def _known(self, _):
+        return _NOTHING
+
+    @property
+    def evolution(self) -> Evolution:
+        """The right-hand side as stages, made from the text."""
+        return evolution(self.text)
 
     def symbol(self, xi: ArrayLike, multiplier: Multiplier | None = None) -> np.ndarray:
         """The 1 x 1 symbol [[xi^2]]: e^{i xi x + lam t} grows at lam = xi^2, without bound in xi.
@@ -82,10 +92,11 @@ class BackwardHeat:
         if multiplier is not None:
             function("multiplier", multiplier, "xi and m")
         with np.errstate(over="ignore", invalid="ignore"):
-            d2 = multiplier(xi, 2) if multiplier else (1j * xi) ** 2
-        if not np.isfinite(d2).all():
+            frozen = about(self.evolution, {}, [{(0, 2): 0.0}], _NOTHING)
+            S = frozen.symbol(lambda m: multiplier(xi, m) if multiplier else (1j * xi) ** m)
+        if not np.isfinite(S).all():
             raise ValueError(f"xi must leave the symbol finite, got {shown(xi)}")
-        return np.asarray(tendency(d2), dtype=complex)[..., None, None]
+        return S
 
 
 def mode(xi: ArrayLike, x: ArrayLike, t: ArrayLike) -> Numbers:

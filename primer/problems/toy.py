@@ -11,6 +11,9 @@ import numpy as np
 
 from primer.arithmetic import constant, cos, sin
 from primer.checks import broadcast, function, real, real_array, shown
+from primer.equations.evaluate import Known, Scalars, tendencies
+from primer.equations.slopes import about
+from primer.equations.stages import Evolution, evolution
 from primer.types import ArrayLike, Derivative, Multiplier, Numbers
 
 
@@ -54,6 +57,7 @@ class Toy:
     a: float
     eps: float = 0.01
     fields: ClassVar[tuple[str, ...]] = ("u", "v")
+    text: ClassVar[str] = "u_t = v_x; v_t = eps*u*v_xx + u_x - v - sin(x)"
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "a", real("a", self.a))
@@ -99,9 +103,23 @@ class Toy:
         ``derivative(f, m)`` gives the m-th x-derivative of a field on x; ``forcing`` is ``self.forcing(x)``, where it
         is at hand.
         """
-        u, v = state
         sin_x = self.forcing(x) if forcing is None else forcing
-        return tendency(u, v, derivative(u, 1), derivative(v, 1), derivative(v, 2), sin_x, self.eps)
+        u_t, v_t = tendencies(self.evolution, self.parameters, state, derivative, self._known(sin_x))
+        return u_t, v_t
+
+    @property
+    def evolution(self) -> Evolution:
+        """The right-hand side as stages, made from the text."""
+        return evolution(self.text, ("eps",))
+
+    @property
+    def parameters(self) -> dict[str, float]:
+        """The parameters that occur in the equations."""
+        return {"eps": self.eps}
+
+    def _known(self, sin_x):
+        scalars = Scalars.of(sin_x)
+        return Known(scalars, (scalars.number(self.eps),), (sin_x,))
 
     def symbol(
         self, xi: ArrayLike, u: ArrayLike, v_xx: ArrayLike = 0.0, multiplier: Multiplier | None = None
@@ -122,11 +140,11 @@ class Toy:
         xi, u, v_xx = broadcast(xi=real_array("xi", xi), u=real_array("u", u), v_xx=real_array("v_xx", v_xx))
         if multiplier is not None:
             function("multiplier", multiplier, "xi and m")
-        S = np.empty((*xi.shape, 2, 2), dtype=complex)
+        base = {(0, 0): u, (1, 2): v_xx}
+        slots = [{slot: base.get(slot, 0.0) for slot in stage.slots} for stage in self.evolution.stages]
         with np.errstate(over="ignore", invalid="ignore"):
-            d1, d2 = (multiplier(xi, m) if multiplier else (1j * xi) ** m for m in (1, 2))
-            S[..., 0, 0], S[..., 0, 1] = 0, d1
-            S[..., 1, 0], S[..., 1, 1] = d1 + self.eps * v_xx, self.eps * u * d2 - 1
+            frozen = about(self.evolution, self.parameters, slots, self._known(np.zeros(1)))
+            S = frozen.symbol(lambda m: multiplier(xi, m) if multiplier else (1j * xi) ** m)
         if not np.isfinite(S).all():
             raise ValueError(f"xi, u and v_xx must leave the symbol finite, got xi = {shown(xi)} and u = {shown(u)}")
         return S

@@ -169,8 +169,8 @@ def _judged(found, pde, order):
     if not reason.startswith("Re "):
         reason = reason[0].lower() + reason[1:]
     kind = {Kind.ILL_POSED: "Ill posed", Kind.UNDECIDED: "Undecided", Kind.WELL_POSED: "Well posed"}[found.kind]
-    if found.kind is Kind.WELL_POSED and found.unstable:
-        kind = "Well posed but unstable"
+    if found.kind is Kind.WELL_POSED and found.grows:
+        kind = "Well posed but unstable" if found.unstable else "Well posed, with growth"
     alone = ", with the highest derivatives alone" if order == "maximal" else ""
     text = " ".join(pde.split())
     return f"{kind} ({text if len(text) <= 60 else text[:57] + '...'}{alone}): {reason}"

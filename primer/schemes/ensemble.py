@@ -1,4 +1,4 @@
-"""Many toy systems marched side by side: the same runs, to the bit, in less time."""
+"""Many problems of one text marched side by side: the same runs, to the bit, in less time."""
 
 from __future__ import annotations
 
@@ -9,11 +9,11 @@ from concurrent.futures import ThreadPoolExecutor
 import numpy as np
 
 from primer.checks import sequence
-from primer.compiled import compiled
-from primer.problems.toy import Toy
-from primer.schemes.block import KERNEL, Block
+from primer.compiled import able
+from primer.schemes.block import MEMBERS, Block, fits_a_block
 from primer.schemes.ftcs import ftcs
-from primer.schemes.record import a_problem, plan
+from primer.schemes.marching import a_problem
+from primer.schemes.record import plan
 from primer.schemes.run import Run, Seed
 from primer.types import DTypeLike, Problem
 
@@ -32,9 +32,9 @@ def ftcs_ensemble(
 ) -> tuple[Run, ...]:
     """March many problems on the same grid with the same step: a tuple of what :func:`primer.ftcs` gives for each.
 
-    Toy systems in float32 or float64 are marched in blocks, the member the innermost index, so that one vector
-    instruction serves several of them; the blocks are spread over the machine's cores. Each member's bits are those of
-    its single run. Anything else is marched one by one.
+    Problems of one text, in float32 or float64, are marched in blocks, the member the innermost index, so that one
+    vector instruction serves several of them; the blocks are spread over the machine's cores. Each member's bits are
+    those of its single run. Anything else, such as a text with functions of the fields or of t, is marched one by one.
 
     Parameters
     ----------
@@ -51,6 +51,7 @@ def ftcs_ensemble(
 
     The scheme of section A2.2.2.
 
+    >>> from primer import Toy
     >>> runs = ftcs_ensemble([Toy(0.5), Toy(1.5)], n=30, t_end=5.0)
     >>> [run.t_first_negative is not None for run in runs]
     [True, False]
@@ -60,21 +61,30 @@ def ftcs_ensemble(
         a_problem("problems", problem)
     options = (n, dt, t_end, record_every, snapshots, seed, blow_up_at, dtype, digits)
     asked = plan(*options)
-    asked.refuse_if_large(fields=2, members=len(problems))
-    blockwise = asked.numbers.dtype in (np.float32, np.float64) and all(type(p) is Toy for p in problems)
-    if not blockwise or compiled(KERNEL) is None:
-        return tuple(ftcs(problem, *options) for problem in problems)
-    size = max(compiled(KERNEL).MARCH)
-    blocks = [Block(asked, problems[k : k + size], size) for k in range(0, len(problems), size)]
+    asked.refuse_if_large(max((len(problem.fields) for problem in problems), default=1), members=len(problems))
+    groups: dict = {}
+    for place, problem in enumerate(problems):
+        groups.setdefault(fits_a_block(problem, asked), []).append(place)
+    alone = groups.pop(None, [])
+    if groups and not able():
+        alone, groups = range(len(problems)), {}
+    runs = {place: ftcs(problems[place], *options) for place in alone}
+    blocks = [
+        (places[k : k + MEMBERS], Block(asked, [problems[place] for place in places[k : k + MEMBERS]], MEMBERS))
+        for places in groups.values()
+        for k in range(0, len(places), MEMBERS)
+    ]
     interrupted = False
     with ThreadPoolExecutor(os.cpu_count()) as pool:  # the compiled loop lets go of the interpreter
-        marches = [pool.submit(block.march) for block in blocks]
+        marches = [pool.submit(block.march) for _, block in blocks]
         try:
             for march in marches:
                 march.result()
         except KeyboardInterrupt:
             interrupted = True
         finally:
-            for block in blocks:  # else the pool would wait for those still marching
+            for _, block in blocks:  # else the pool would wait for those still marching
                 block.halted = True
-    return tuple(run for block in blocks for run in block.runs(interrupted))
+    for places, block in blocks:
+        runs |= zip(places, block.runs(interrupted), strict=True)
+    return tuple(runs[place] for place in range(len(problems)))

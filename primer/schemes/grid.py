@@ -19,7 +19,9 @@ from typing import Any
 
 import numpy as np
 
-from primer.checks import integer, real_array, shown
+from primer.checks import integer, real, real_array, shown
+from primer.equations.terms import DERIVATIVE
+from primer.schemes.weights import central
 from primer.types import ArrayLike, Numbers
 
 MAX_POINTS = 10**7  # a finer grid is refused: a single field on it would take 80 MB
@@ -47,11 +49,22 @@ class Stencil:
     def __call__(self, f: np.ndarray, h: float) -> np.ndarray:
         """Apply it to samples f of shape (..., n) of a periodic function on a grid of spacing h."""
         reach, n = max(map(abs, self.offsets)), f.shape[-1]
-        ghosts = np.concatenate((f[..., n - reach :], f, f[..., :reach]), axis=-1)
-        total: Any = 0
+        if reach <= n:
+            ghosts = np.concatenate((f[..., n - reach :], f, f[..., :reach]), axis=-1)
+        else:  # more than once around
+            ghosts = f[..., np.arange(-reach, n + reach) % n]
+        if f.dtype.kind != "c":
+            return self._sum(ghosts, reach, n, h)
+        found = np.empty_like(f)  # real factors are for both parts
+        found.real, found.imag = (self._sum(part, reach, n, h) for part in (ghosts.real, ghosts.imag))
+        return found
+
+    def _sum(self, ghosts, reach, n, h):
+        total: Any = None
         for offset, weight in zip(self.offsets, self.weights, strict=True):
             term = ghosts[..., reach + offset : reach + offset + n]
-            total = total + (term if weight == 1 else weight * term)
+            term = term if weight == 1 else weight * term
+            total = term if total is None else total + term
         return total * self.scale(h)
 
     def multiplier(self, xi: ArrayLike, h: float) -> Numbers:
@@ -60,52 +73,49 @@ class Stencil:
         return total * self.scale(h)
 
 
-#: The paper's stencils: the central differences of second order for the first and the second derivative.
-CENTRAL = {
-    1: Stencil(1, 2, (1, -1), (1, -1), 2),
-    2: Stencil(2, 2, (1, 0, -1), (1, -2, 1), 1),
-}
+def _table(order):
+    return {m: Stencil(m, order, *central(m, order)) for m in range(1, DERIVATIVE + 1)}
 
-#: Central differences of fourth and sixth order, B. Fornberg, Math. Comp. 51 (1988) 699, table 1.
-CENTRAL_4 = {
-    1: Stencil(1, 4, (1, -1, 2, -2), (8, -8, -1, 1), 12),
-    2: Stencil(2, 4, (0, 1, -1, 2, -2), (-30, 16, 16, -1, -1), 12),
-}
-CENTRAL_6 = {
-    1: Stencil(1, 6, (1, -1, 2, -2, 3, -3), (45, -45, -9, 9, 1, -1), 60),
-    2: Stencil(2, 6, (0, 1, -1, 2, -2, 3, -3), (-490, 270, 270, -27, -27, 2, 2), 180),
-}
+
+#: The paper's stencils, central differences of second order, for the first and the second derivative; and, as in the
+#: other tables, for those up to the twelfth.
+CENTRAL = {**_table(2), 2: Stencil(2, 2, (1, 0, -1), (1, -2, 1), 1)}
+
+#: Central differences of fourth and sixth order.
+CENTRAL_4, CENTRAL_6 = _table(4), _table(6)
 
 
 @dataclass(frozen=True)
 class Grid:
-    """The periodic grid x_j = -pi + j h, j = 0 ... n-1, with h = 2 pi/n.
+    """The periodic grid x_j = -period/2 + j h, j = 0 ... n-1, with h = period/n; a period of 2 pi if none is given.
 
     Raises
     ------
-    TypeError, ValueError    if n is not an integer >= 4
+    TypeError, ValueError    if n is not an integer >= 4, or period not a number > 0
     """
 
     n: int
+    period: float = 2 * math.pi
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "n", integer("n", self.n, least=4))
         if self.n > MAX_POINTS:
             raise ValueError(f"n must be an integer <= {MAX_POINTS:.0e} to fit into memory, got {shown(self.n)}")
+        object.__setattr__(self, "period", real("period", self.period, above=0))
 
     @property
     def h(self) -> float:
-        """The spacing 2 pi/n."""
-        return 2 * math.pi / self.n
+        """The spacing period/n."""
+        return self.period / self.n
 
     @property
     def x(self) -> np.ndarray:
         """The points, of shape (n,)."""
-        return -math.pi + self.h * np.arange(self.n)
+        return -self.period / 2 + self.h * np.arange(self.n)
 
     def derivative(self, f: ArrayLike, m: int) -> np.ndarray:
-        """The m-th derivative of f, of shape (..., n), by central differences of second order, m = 1 or 2."""
-        m = integer("m", m, least=1, most=2)
+        """The m-th derivative of f, of shape (..., n), by central differences of second order, m = 1 ... 12."""
+        m = integer("m", m, least=1, most=DERIVATIVE)
         values = f if isinstance(f, np.ndarray) and f.dtype.kind == "c" else real_array("f", f)
         if values.shape[-1:] != (self.n,):
             raise ValueError(f"f must have shape (..., {self.n}) on this grid, got {values.shape}")
@@ -113,7 +123,7 @@ class Grid:
 
     def multiplier(self, xi: ArrayLike, m: int) -> Numbers:
         """What that derivative does to e^{i xi x}: i sin(xi h)/h for m = 1, -(4/h^2) sin^2(xi h/2) for m = 2."""
-        return CENTRAL[integer("m", m, least=1, most=2)].multiplier(real_array("xi", xi), self.h)
+        return CENTRAL[integer("m", m, least=1, most=DERIVATIVE)].multiplier(real_array("xi", xi), self.h)
 
 
 def grids(name: str, ns: Iterable[int]) -> tuple[int, ...]:

@@ -11,10 +11,13 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from primer.checks import affordable, instance, real, shown
-from primer.compiled import compiled
+from primer.compiled import able
 from primer.problems.toy import Toy
-from primer.schemes.fourier import MATRIX_UP_TO, Fourier
+from primer.schemes.block import of_text
+from primer.schemes.fourier import Fourier
 from primer.schemes.grid import CENTRAL, Grid, Stencil
+from primer.schemes.lines_block import compilable, marched
+from primer.schemes.marching import a_problem, grid_of, orders_of, slope_of
 from primer.schemes.runge_kutta import RK4, RungeKutta
 from primer.types import Problem
 
@@ -92,10 +95,9 @@ def march_lines(
     >>> bool(np.abs(end.final[0] - toy.exact(end.x, 5.0)[0]).max() < 1e-9)  # eq. (toy-sln)
     True
     """
-    if isinstance(problem, type) or not all(hasattr(problem, part) for part in ("initial", "forcing", "rhs")):
-        raise TypeError(f"problem must be a Toy, a BackwardHeat or an object with their methods, got {shown(problem)}")
-    grid, dt, t_end = Grid(n), real("dt", dt, above=0), real("t_end", t_end, least=0)
-    _check(space, time)
+    a_problem("problem", problem, ("initial", "forcing", "rhs"))
+    grid, dt, t_end = grid_of(problem, n), real("dt", dt, above=0), real("t_end", t_end, least=0)
+    _check(space, time, orders_of(problem))
     if not t_end / dt <= MAX_STEPS:
         raise ValueError(
             f"dt must be >= t_end/{MAX_STEPS:.0e} (more steps take too long), got {dt!r} with t_end {t_end!r}"
@@ -110,10 +112,15 @@ def march_lines(
     return Lines(problem, grid.n, step, t_end, space, time, grid.x, tuple(final))
 
 
-def _check(space, time):
+def _check(space, time, orders=(1, 2)):
     instance("time", time, RungeKutta, "RungeKutta step such as RK4 or RK8")
-    if not isinstance(space, dict) or not all(isinstance(space.get(m), Stencil | Fourier) for m in (1, 2)):
+    if not isinstance(space, dict) or not all(isinstance(d, Stencil | Fourier) for d in space.values()):
         raise TypeError(f"space must be a table of derivatives such as CENTRAL or FOURIER, got {shown(space)}")
+    missing = [m for m in orders if m not in space]
+    if missing:
+        raise TypeError(
+            f"space must be a table of derivatives such as CENTRAL or FOURIER, got one without order {missing[0]}"
+        )
 
 
 def stable_step(toy: Toy, n: int, space: Space, time: RungeKutta) -> float:
@@ -145,33 +152,31 @@ def trace(problem, n, space, time, dt, counts):
     (states, depth); states that a blow-up kept from being reached are NaN, and depth (m,) is the integral over time of
     max(0, -min of the first field) up to there, infinite where not reached
     """
-    start = _start if type(problem) is Toy else _start.__wrapped__  # other problems need not be hashable
-    x, y, forcing, limit = start(problem, n)
-    states, depth = np.full((len(dt), *y.shape), np.nan), np.full(len(dt), np.inf)
-    loops = compiled("primer.schemes.lines_kernel") if type(problem) is Toy else None
-    tables = _tables(n, space[1], space[2])
-    if loops is None or tables is None:
-        _interpreted(problem, x, y, forcing, space, time, dt, counts, limit, states, depth)
-    else:
-        loops.march(y.copy(), forcing, problem.eps, *tables, *time.table, dt, counts, limit, states, depth)
+    start = _start if of_text(problem) else _start.__wrapped__  # problems of one's own need not be hashable
+    x, y, limit = start(problem, n)
+    states, depth = np.full((len(dt), *y.shape), np.nan, dtype=y.dtype), np.full(len(dt), np.inf)
+    begin = np.concatenate([[0.0], np.cumsum(np.multiply(dt, counts))[:-1]])
+    march = marched if compilable(problem, n, space) and able() else _interpreted
+    march(problem, x, y, space, time, dt, begin, counts, limit, states, depth)
     return states, depth
 
 
-def _interpreted(problem, x, y, forcing, space, time, dt, counts, limit, states, depth):
+def _interpreted(problem, x, y, space, time, dt, begin, counts, limit, states, depth):
     """The same march in NumPy, for any problem."""
-    h, deep = 2 * math.pi / x.size, 0.0
+    h, deep, lost = grid_of(problem, x.size).h, 0.0, np.zeros_like(y)
+    tendency = slope_of(problem, x, lambda f, m: space[m](f, h))
 
-    def slope(y):
+    def slope(y, t):
         if not np.abs(y).max() <= limit:
             return np.full_like(y, np.nan)
-        return np.array(problem.rhs(x, y, lambda f, m: space[m](f, h), forcing))
+        return tendency(y, t)
 
     # One step may carry a blow-up from below the stated size to beyond the largest number.
-    with np.errstate(over="ignore", invalid="ignore"):
+    with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
         for m, count in enumerate(counts):
-            for _ in range(count):
-                deep -= dt[m] * min(0.0, y[0].min())
-                y = time.step(slope, y, dt[m])
+            for step in range(count):
+                deep -= dt[m] * min(0.0, y[0].real.min())
+                y, lost = time.exact_step(slope, y, lost, dt[m], begin[m] + step * dt[m])
                 if not np.abs(y).max() <= limit:
                     return
             states[m], depth[m] = y, deep
@@ -179,24 +184,7 @@ def _interpreted(problem, x, y, forcing, space, time, dt, counts, limit, states,
 
 @lru_cache(maxsize=64)
 def _start(problem, n):
-    """(x, state at t = 0, forcing, size at which a march is given up)."""
-    x = Grid(n).x
-    y = np.array(problem.initial(x))
-    return x, y, problem.forcing(x), _BLOWN_UP * (1 + float(np.abs(y).max()))
-
-
-@lru_cache(maxsize=64)
-def _tables(n, *derivatives):
-    """What the compiled loop needs to know of the derivatives, or None where NumPy does better."""
-    h = 2 * math.pi / n
-    if not all(isinstance(d, Stencil) for d in derivatives):
-        return tuple(d.matrix(n) for d in derivatives) if n <= MATRIX_UP_TO else None
-    reach = max(abs(o) for d in derivatives for o in d.offsets)
-    if reach > n:
-        return None
-    tables = np.zeros((len(derivatives), 2 * reach + 1, 1))
-    for table, d in zip(tables, derivatives, strict=True):
-        for offset, weight in zip(d.offsets, d.weights, strict=True):
-            table[reach + offset, 0] = weight * d.scale(h)
-    tables.flags.writeable = False  # as the matrices: numba compiles another loop for writable arrays
-    return tuple(tables)
+    """(x, state at t = 0, size at which a march is given up)."""
+    x = grid_of(problem, n).x
+    y = np.array(problem.initial(x), dtype=complex if getattr(problem, "is_complex", False) else None)
+    return x, y, _BLOWN_UP * (1 + float(np.abs(y).max()))

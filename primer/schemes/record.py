@@ -9,6 +9,7 @@ import numpy as np
 from primer.arithmetic import Arithmetic, arithmetic
 from primer.checks import MAX_BYTES, integer, real, sequence, shown
 from primer.schemes.grid import Grid
+from primer.schemes.marching import a_problem, grid_of
 from primer.schemes.run import Run, Seed, Stop
 
 _SMALLEST = float(np.finfo(np.float32).tiny)  # a smaller step would be 0 in single precision
@@ -48,25 +49,20 @@ class Plan:
     def start(self, problem):
         """(h, x, state, log) before the first step: state of shape (fields, n)."""
         a_problem("problem", problem)
+        period, complex_ = getattr(problem, "period", 2 * math.pi), getattr(problem, "is_complex", False)
+        numbers = self.numbers.complex if complex_ else self.numbers
         if self.seed and self.seed.field not in problem.fields:
             raise ValueError(f"seed field must be one of {', '.join(problem.fields)}, got {shown(self.seed.field)}")
         self.refuse_if_large(len(problem.fields))
-        h, x = self.numbers.grid(self.grid.n)
+        h, x = self.numbers.grid(self.grid.n, period)
         with np.errstate(over="ignore", invalid="ignore"):  # data beyond the largest number are a blow-up at t = 0
-            state = [self.numbers.array(f) for f in problem.initial(x)]
+            state = [numbers.array(f) for f in problem.initial(x)]
             if self.seed:
-                state[problem.fields.index(self.seed.field)] += self.numbers.array(self.seed(x))
-            log = Log(self, self.numbers.array(problem.steady(x)))
+                angle = x if period == 2 * math.pi else x * (2 * self.numbers.pi / (h * self.grid.n))
+                state[problem.fields.index(self.seed.field)] += numbers.array(self.seed(angle))
+            log = Log(self, numbers.array(problem.steady(x)))
             log.watch(0, np.array(state))
         return h, x, np.array(state), log
-
-
-def a_problem(name, problem):
-    """Raise TypeError unless the problem has what a march needs."""
-    if isinstance(problem, type) or not all(
-        hasattr(problem, part) for part in ("fields", "initial", "steady", "forcing", "rhs")
-    ):
-        raise TypeError(f"{name} must be a Toy, a BackwardHeat or an object with their methods, got {shown(problem)}")
 
 
 def plan(n, dt, t_end, record_every, snapshots, seed, blow_up_at, dtype, digits) -> Plan:
@@ -105,11 +101,12 @@ class Log:
 
     def __init__(self, plan, steady):
         self.plan, self.steady = plan, steady
+        self.real = steady.dtype == plan.numbers.dtype and not hasattr(steady.flat[0], "_mpc_")
         limit = plan.numbers.number(plan.blow_up_at)
         self.limit = limit * limit
         records = plan.steps // plan.every + 1
         self.clock = np.array([0, -1, 0, 0])  # step, first step with u <= 0, blown up?, snapshots taken
-        self.dist2, self.u_min = np.zeros((2, records), dtype=steady.dtype)
+        self.dist2, self.u_min = np.zeros((2, records), dtype=plan.numbers.dtype)
         self.shots = np.zeros((len(plan.times), *steady.shape), dtype=steady.dtype)
 
     @property
@@ -131,9 +128,12 @@ class Log:
             clock[3] += 1
 
     def measure(self, state):
-        """(Dist^2, min u) of a state."""
+        """(Dist^2, min u) of a state; of complex fields, with their moduli and the real part of the first."""
         deviation = state - self.steady
-        return (deviation * deviation).sum(axis=0).max(), state[0].min()
+        if self.real:
+            return (deviation * deviation).sum(axis=0).max(), state[0].min()
+        re, im = real_and_imaginary(deviation)
+        return (re * re + im * im).sum(axis=0).max(), real_and_imaginary(state[0])[0].min()
 
     def run(self, problem, state, interrupted):
         """The finished :class:`Run`, whose last record is the last state."""
@@ -148,7 +148,7 @@ class Log:
             problem=problem,
             n=plan.grid.n,
             dt=plan.dt,
-            x=plan.grid.x,
+            x=grid_of(problem, plan.grid.n).x,
             t=recorded * plan.dt,
             dist=dist2**0.5 if dist2.dtype == object else np.sqrt(dist2),
             u_min=u_min,
@@ -160,3 +160,10 @@ class Log:
             seed=plan.seed,
             blow_up_at=plan.blow_up_at,
         )
+
+
+def real_and_imaginary(f):
+    """The two parts of an array of complex numbers, also of multiprecision ones."""
+    if f.dtype != object:
+        return f.real, f.imag
+    return tuple(np.frompyfunc(lambda z, part=part: getattr(z, part), 1, 1)(f) for part in ("real", "imag"))

@@ -60,7 +60,7 @@ class Seed:
             raise TypeError(f"seed field must be the name of a field, such as 'u', got {shown(self.field)}")
 
     def __call__(self, x: ArrayLike) -> np.ndarray:
-        """The perturbation at x, of the shape of x."""
+        """The perturbation at x, of the shape of x; another period than 2 pi is scaled to that first."""
         return self.amplitude * cos(self.mode * points(x) + self.phase)
 
 
@@ -102,6 +102,11 @@ class Run:
     t_stop: float
     seed: Seed | None = None
     blow_up_at: float = math.inf
+
+    @property
+    def dist_from(self) -> str:
+        """From what Dist is measured: "steady", or "initial" where a ``PDE`` has no steady state."""
+        return getattr(self.problem, "dist_from", "steady")
 
     def __post_init__(self) -> None:
         for array in (self.x, self.t, self.dist, self.u_min, *self.final, *sum(self.snapshots.values(), ())):

@@ -8,8 +8,6 @@ from importlib.util import find_spec
 
 import numpy as np
 
-from primer.compiled import compiled
-from primer.schemes.block import KERNEL
 from primer.schemes.fourier import FOURIER
 from primer.schemes.ftcs import ftcs
 from primer.schemes.grid import CENTRAL, CENTRAL_4, CENTRAL_6, Grid
@@ -42,7 +40,6 @@ def contestants(with_py_pde=None):
     """
     if with_py_pde and not find_spec("pde"):
         raise ModuleNotFoundError('py-pde is not here: python -m pip install "illposed-primer[bench]" brings it')
-    compiled(KERNEL)  # else ftcs would march short runs in NumPy, rather than wait for the compiler
     doubling = tuple(25 * 2**k for k in range(8))
     spaces = {
         "central 2": (CENTRAL, doubling),

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import math
+import sys
 import warnings
 from collections.abc import Iterable, Sequence
 from concurrent.futures import BrokenExecutor, Executor, Future, as_completed
 from dataclasses import dataclass
+from multiprocessing import current_process
 from os import PathLike
 
 import numpy as np
@@ -95,8 +97,10 @@ def blow_up_map(
     Raises
     ------
     TypeError, ValueError    in one sentence, for an argument that is not allowed
+    RuntimeError             if no worker of the executor lived to march a grid
 
-    Section A2.2.2.
+    Where processes are spawned (Windows, macOS), what a script does with a process pool must stand under
+    ``if __name__ == "__main__":``. Section A2.2.2.
 
     >>> found = blow_up_map([0.5, 1.5], [30, 100], t_end=20.0, progress=False)  # Figures 4 to 6, and one more
     >>> np.isfinite(found.t_blow_up)
@@ -147,6 +151,8 @@ def _without_repeats(name, values):
 def _march(columns, executor, store, progress):
     from tqdm import tqdm
 
+    if executor is not None and getattr(current_process(), "_inheriting", False):
+        sys.exit(1)  # a spawned worker that reads a script without a main guard: its parent says so, once
     with tqdm(total=sum(len(column[0]) for column in columns), unit="cell", disable=None if progress else True) as bar:
 
         def keep(rows):
@@ -176,6 +182,11 @@ def _march(columns, executor, store, progress):
         finally:
             for future in waiting:
                 future.cancel()
+    if lost and len(lost) == len(columns) and all(isinstance(error, BrokenExecutor) for error in lost.values()):
+        raise RuntimeError(
+            "no worker lived to march a grid. In a script, what uses a process pool must stand under "
+            'if __name__ == "__main__":, since spawned workers read the script again'
+        )
     if lost:
         why = "; ".join(f"n = {n} ({type(error).__name__}: {error})" for n, error in sorted(lost.items()))
         warnings.warn(f"not marched, and not a number in the map: {why}", RuntimeWarning, stacklevel=3)

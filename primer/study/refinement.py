@@ -3,18 +3,23 @@
 from __future__ import annotations
 
 import math
+import warnings
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
 
-from primer.checks import real, sequence
+from primer.checks import real, sequence, shown
 from primer.problems.heat import BackwardHeat
 from primer.schemes.discrete import amplification
 from primer.schemes.ftcs import ftcs
 from primer.schemes.grid import Grid, grids
+from primer.schemes.limit import NEUTRAL
+from primer.schemes.marching import grid_of
 from primer.schemes.run import Run, Seed, Stop
+from primer.study.stability import all_rates, tame_dt
 from primer.types import Problem
 
 
@@ -31,8 +36,13 @@ class Refinement:
 
     @property
     def h(self) -> np.ndarray:
-        """(k,) spacings 2 pi/n."""
-        return 2 * math.pi / self.n
+        """(k,) spacings: the period, 2 pi if nothing else is said, over n."""
+        return np.array([grid_of(run.problem, run.n).h for run in self.runs])
+
+    @property
+    def dt(self) -> np.ndarray:
+        """(k,) the steps."""
+        return np.array([run.dt for run in self.runs])
 
     @property
     def dist_end(self) -> np.ndarray:
@@ -44,17 +54,32 @@ class Refinement:
         """(k,) blow-up times; infinite where a run did not blow up."""
         return np.array([run.t_stop if run.stop is Stop.BLEW_UP else math.inf for run in self.runs])
 
+    @cached_property
+    def lost_by_scheme(self) -> np.ndarray:
+        """(k,) True where the step is too large: what does not grow of itself is amplified tenfold, and most of all.
+
+        In the linearised scheme about the initial data and about the steady state, if there is one. Where it is False a
+        blow-up is of the equations on that grid, or of a solution that has left both states far behind.
+        """
+        return np.array([_lost(run) for run in self.runs])
+
 
 def refine(
     problem: Problem,
     ns: Iterable[int],
-    dt: float | Callable[[int], float] = 1e-3,
+    dt: float | str | Callable[[int], float] = 1e-3,
     seed: Seed | tuple | Callable[[int], Seed | None] | None = None,
     **options: Any,
 ) -> Refinement:
     """March ``problem`` on each of the grids ``ns`` by :func:`primer.ftcs`.
 
-    ``dt`` and ``seed`` may also be functions of n; the other options are those of ``ftcs``.
+    ``dt`` and ``seed`` may also be functions of n; the other options are those of ``ftcs``. ``dt = "stable"`` takes on
+    each grid the step with which nothing that does not grow of itself gains more than 1 % by the end, and at least a
+    hundred steps.
+
+    With one dt for all grids, the finer ones may blow up for want of a smaller step, which looks like ill-posedness and
+    is none. So where a run blows up the steps are checked, and a warning names the grids that the scheme has lost
+    (:attr:`Refinement.lost_by_scheme`).
 
     The end of section A2.2.2.
 
@@ -63,11 +88,39 @@ def refine(
     >>> print(f"{found.dist_end[0] / found.dist_end[1]:.1f}")  # second order
     4.0
     """
+    ns = _grids(ns)
+    if isinstance(dt, str):
+        if dt != "stable":
+            raise ValueError(f'dt must be a number, a function of n or "stable", got {shown(dt)}')
+        end = real("t_end", options.get("t_end", 100.0), least=0)
+        steps = {n: tame_dt(problem, n, end) for n in ns}
+        dt = steps.__getitem__
 
     def at(n, value):
         return value(n) if callable(value) and not isinstance(value, Seed | type) else value
 
-    return Refinement(tuple(ftcs(problem, n, at(n, dt), seed=at(n, seed), **options) for n in _grids(ns)))
+    found = Refinement(tuple(ftcs(problem, n, at(n, dt), seed=at(n, seed), **options) for n in ns))
+    if np.isfinite(found.t_blow_up).any() and found.lost_by_scheme.any():
+        lost = ", ".join(str(run.n) for run, lost in zip(found.runs, found.lost_by_scheme, strict=True) if lost)
+        warnings.warn(
+            f'the step is too large for n = {lost}: what these runs show is the scheme; try dt="stable"',
+            RuntimeWarning,
+            stacklevel=2,
+        )
+    return found
+
+
+def _lost(run):
+    """Whether the scheme, and not the equations, has the last word in a run."""
+    if not run.t_stop:
+        return False
+    for lam in all_rates(run.problem, run.n):
+        growth = np.log(np.maximum(np.abs(1 + run.dt * lam), 1e-300)) / run.dt
+        of_itself = lam.real > NEUTRAL * np.abs(lam).max(initial=0.0)
+        scheme = growth[~of_itself].max(initial=0.0)
+        if scheme > growth[of_itself].max(initial=0.0) and scheme * run.t_stop > math.log(10):
+            return True
+    return False
 
 
 def _grids(ns):

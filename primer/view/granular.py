@@ -5,7 +5,7 @@ from matplotlib.patches import Polygon
 
 from primer.granular.dispersion import growth_rates
 from primer.granular.proof import bad_directions, chi, chi_as_printed, det_MN, lambda_3
-from primer.view.style import ILL, STEADY, U, V
+from primer.view.style import ILL, STEADY, U, V, legend_below
 
 GREEN = "#009E73"
 
@@ -93,7 +93,7 @@ def draw_loci(ax, law, marked, I, between=(0.62, 1.42)):
         )
     ax.set(xlabel=r"$p/C_0$", ylabel=r"$Y/C_0$", xlim=(0, None), ylim=(0, None))
     ax.set_ylim(0, 1.25 * law.Y(ends[2], marked[2], I) / scale)
-    ax.legend(loc="upper left")
+    legend_below(ax)
 
 
 def draw_base_flow(ax, shrink=-1.0, stretch=0.5):
@@ -143,7 +143,7 @@ def draw_cross_terms(ax, rows):
         ylabel=r"$\chi(M, N)$",
         ylim=(-0.4, 7.5),
     )
-    ax.legend(loc="upper center", fontsize=8.5, ncols=2)
+    legend_below(ax, fontsize=8.5)
 
 
 def draw_determinants(ax, rows):
@@ -151,7 +151,7 @@ def draw_determinants(ax, rows):
     for row in rows:
         draw_determinant(ax, *row)
     ax.set(title=r"(b) $\det(M+N)$ over $|\xi|^4 t/\Gamma$", ylabel=r"$\det(M+N)$", ylim=(-0.15, 2.2))
-    ax.legend(loc="upper center", fontsize=8.5)
+    legend_below(ax, fontsize=8.5)
     text = "○ bad directions (e44): zero in CSSM,\nlifted by A > 0 in CIDR"
     ax.annotate(text, (0.5, 0.6), xycoords="axes fraction", ha="center", fontsize=8.5)
 
@@ -166,7 +166,7 @@ def draw_third_root(ax, c, k):
         ax.plot(theta[::10], small / c.D, marker, ms=4.5, mfc="none", ls="", label=rf"$|\xi|\,d$ = {value:g}")
     ax.axhline(0, color=STEADY, lw=0.8, ls=":")
     ax.set(xlabel=r"direction of $\xi$ (degrees from the major axis)", ylabel=r"$\lambda_3/\|D\|$", xlim=(0, 90))
-    ax.legend()
+    legend_below(ax)
 
 
 def _turn(angle):

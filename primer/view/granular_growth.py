@@ -6,7 +6,7 @@ from matplotlib.patches import Polygon
 
 from primer.granular.dispersion import growth_rate
 from primer.granular.fastest import fastest
-from primer.view.style import STEADY
+from primer.view.style import STEADY, legend_below
 
 #: Colour and line style of each law, the same in every picture.
 LOOK = {
@@ -56,11 +56,11 @@ def frame_polar(ax, decades):
 
 
 def draw_growth(ax, c, k, name, color, ls):
-    """The largest growth rate over all directions, in units of ||D||, against |xi| (symmetric log axes)."""
+    """The largest growth rate over all directions, in units of ||D||, against |xi| (asinh: no corner at 0)."""
     rate, _ = fastest(c, k)
     ax.plot(k, rate / c.D, color=color, ls=ls, label=name)
     ax.set_xscale("log")
-    ax.set_yscale("symlog", linthresh=1)
+    ax.set_yscale("asinh", linear_width=1)
     ax.set(xlabel=r"$|\xi|\, d$", ylabel=r"largest growth rate$\,/\,\|D\|$")
     return rate / c.D
 
@@ -73,7 +73,7 @@ def draw_laws(ax, rows, k):
         ending = power if found.kind == "ill-posed" else rf"bounded by {limit:.3g} $\|D\|$"
         draw_growth(ax, c, k, f"{name}: {found.kind}, {ending}", color, ls)
     ax.set(title="largest growth over all directions", xlim=(k[0], k[-1]))
-    ax.legend(loc="upper left")
+    legend_below(ax)
 
 
 def draw_window(ax, c, k, degrees, step=1.0):
@@ -88,7 +88,7 @@ def draw_window(ax, c, k, degrees, step=1.0):
         ax.plot(coarse, _rate(c, value, coarse), "o", ms=5, color=line.get_color(), mec="black", clip_on=False)
     ax.set(xlim=degrees, ylim=(0, None), ylabel=r"growth rate$\,/\,\|D\|$")
     ax.set(xlabel=r"direction of $\xi$ (degrees from the major axis)", title=f"dots: a scan by {step:g}°")
-    ax.legend(loc="upper right")
+    legend_below(ax)
 
 
 def _rate(c, k, degrees):
@@ -121,13 +121,18 @@ def draw_map(ax, I, ratio, kind):
 
 
 def draw_noise(ax, noise):
-    """The first velocity component of the noise at its time, on the grid's own cells, over its largest value."""
+    """The first velocity component of the noise at its time, on the grid's own cells, over its largest value.
+
+    Returns the image, from -1 to 1.
+    """
     u = noise.after[0]
     top = np.abs(u).max()
-    ax.imshow(u.T / top, origin="lower", cmap="RdBu_r", vmin=-1, vmax=1, interpolation="nearest", extent=(0, 1, 0, 1))
+    look = {"cmap": "RdBu_r", "vmin": -1, "vmax": 1, "interpolation": "nearest", "extent": (0, 1, 0, 1)}
+    image = ax.imshow(u.T / top, origin="lower", **look)
     ax.set(xticks=[], yticks=[])
     ax.set_title(f"{noise.n}²: noise {gain_text(noise.gain)}", fontsize=9.5)
     ax.grid(False)
+    return image
 
 
 def gain_text(gain):
@@ -149,8 +154,9 @@ def draw_measured(ax, noises, c, color, ls):
         ax.plot(noise.k[pick], noise.measured[pick] / c.D, marker, label=f"{noise.n}²", **style)
         ax.axvline(np.pi * noise.n / noise.side, color=STEADY, lw=0.8, ls=":")
     ax.set_xscale("log")
-    ax.set_yscale("symlog", linthresh=10)
-    ax.set(ylim=(-10, None))
+    ax.set_yscale("asinh", linear_width=10)
+    ax.set(ylim=(-10, None), yticks=[0, 1e2, 1e4, 1e6])
+    ax.minorticks_off()
     ax.tick_params(labelsize=8)
 
 
@@ -158,7 +164,8 @@ def draw_routes(ax, routes, legend=False):
     """Error of lambda_3 against |xi| for each way of computing eigenvalues; one line style and marker a way."""
     styles = zip(routes.names, ("o-", "s--", "^-.", "D:", "v-"), strict=False)
     for (name, style), error in zip(styles, routes.errors, strict=True):
-        ax.loglog(routes.k, np.maximum(error, 1e-17), style, ms=4, label=name)
+        label = name.replace("|xi| -> infinity", r"$|\xi| \to \infty$")
+        ax.loglog(routes.k, np.maximum(error, 1e-17), style, ms=4, label=label)
     ax.set(xlabel=r"$|\xi|\, d$", ylabel=r"relative error of $\lambda_3$")
     if legend:
         ax.legend(loc="upper center", fontsize=8.5)

@@ -3,7 +3,7 @@
 import numpy as np
 from matplotlib.colors import LogNorm
 
-from primer.view.style import ILL, STEADY, U, V
+from primer.view.style import ILL, STEADY, U, V, legend_below
 
 
 def draw_map(ax, result, thresholds=()):
@@ -30,7 +30,7 @@ def draw_mode(ax, mode):
     ax.plot(mode.x, mode.u.real, color=U, lw=1, label="u")
     ax.set(xlabel="x", xlim=(-np.pi, np.pi), ylim=(-1.1, 1.35))
     ax.set_xticks([-np.pi, 0, np.pi], [r"$-\pi$", "0", r"$\pi$"])
-    ax.legend(loc="upper right", ncols=2)
+    legend_below(ax)
 
 
 def draw_seeds(ax, ladder):
@@ -44,7 +44,7 @@ def draw_seeds(ax, ladder):
         label=f"slope {ladder.slope:.3f};  1/growth = {1 / ladder.rate:.3f}",
     )
     ax.set(xlabel="amplitude δ of the seed", ylabel="blow-up time")
-    ax.legend(loc="lower left")
+    legend_below(ax, ncols=1)
 
 
 def draw_ladder(ax, measured, foreseen):
@@ -56,7 +56,7 @@ def draw_ladder(ax, measured, foreseen):
     ax.plot(list(measured.values()), range(len(names)), "o", color=U, label="measured")
     ax.set_yticks(range(len(names)), names)
     ax.set(xlabel="blow-up time", xlim=(0, None))
-    ax.legend(loc="lower right")
+    legend_below(ax)
 
 
 def draw_last_bit(ax, plain, ulps, mirror):
@@ -82,7 +82,7 @@ def draw_recovery(ax, result, parameter, **options):
         ax.plot(result.parameters, expected, color=line.get_color(), lw=1)
     ax.plot(result.parameters, result.bias, color=STEADY, ls=":", label="no noise")
     ax.set(xlabel=parameter, ylabel="rms error", yscale="log", **options)
-    ax.legend()
+    legend_below(ax)
 
 
 def draw_answers(ax, x, profile, answers):
@@ -93,4 +93,4 @@ def draw_answers(ax, x, profile, answers):
         ax.plot(x, samples, ls=ls, lw=1.3, label=label)
     ax.set(xlabel="x", xlim=(-np.pi, np.pi), ylim=(-2.6, 3.8))
     ax.set_xticks([-np.pi, 0, np.pi], [r"$-\pi$", "0", r"$\pi$"])
-    ax.legend(loc="upper center", ncols=2)
+    legend_below(ax)

@@ -1,6 +1,6 @@
 """Pictures of growth rates against wavenumber."""
 
-from primer.view.style import ILL, STEADY
+from primer.view.style import ILL, STEADY, legend_below
 
 _LINES = ("-", "--", "-.", ":")
 
@@ -27,10 +27,10 @@ def draw_growths(ax, xi, rates, linthresh=1.0, **options):
         draw_growth(ax, xi, rate, label=label, ls=_LINES[i % len(_LINES)])
         for i, (label, rate) in enumerate(rates.items())
     ]
-    ax.set_yscale("symlog", linthresh=linthresh)
+    ax.set_yscale("asinh", linear_width=linthresh)
     ax.set(**options)
     shade_growing(ax, ax.get_ylim()[1])
-    ax.legend()
+    legend_below(ax)
     return curves
 
 

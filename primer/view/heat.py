@@ -4,7 +4,7 @@ from itertools import cycle
 
 import numpy as np
 
-from primer.view.style import STEADY
+from primer.view.style import STEADY, legend_below
 
 
 def draw_modes(ax, xi, sizes, p, legend=True):
@@ -22,7 +22,7 @@ def draw_modes(ax, xi, sizes, p, legend=True):
         ax.plot(turn, turn**-p * np.exp(p / 2), "o", color=line.get_color())
     ax.set(title=f"p = {p}", xlabel=r"wavenumber $\xi$", xlim=(xi[0], xi[-1]), ylim=(1e-16, 1e8))
     if legend:
-        ax.legend(title="dots: turn at $\\sqrt{p/2t}$")
+        legend_below(ax, title="dots: turn at $\\sqrt{p/2t}$")
 
 
 def draw_coefficients(ax, powers, coefficients):
@@ -30,9 +30,11 @@ def draw_coefficients(ax, powers, coefficients):
     for p, c, ls, marker in zip(powers, coefficients, ("-", "--", "-.", ":"), "os^D", strict=True):
         n = 2 * np.arange(c.size)
         shown = (n > 0) & (c != 0)
-        ax.loglog(n[shown], np.abs(c[shown]), marker=marker, ms=3.5, ls="" if p % 2 == 0 else ls, label=f"p = {p}")
+        ends = p % 2 == 0  # and then it is a point or two, perhaps on the frame
+        look = {"ms": 9, "ls": "", "clip_on": False, "zorder": 3} if ends else {"ms": 3.5, "ls": ls}
+        ax.loglog(n[shown], np.abs(c[shown]), marker=marker, label=f"p = {p}", **look)
     ax.set(xlabel="n", ylabel="$|c_n|$")
-    ax.legend()
+    legend_below(ax)
 
 
 def draw_log_norms(ax, powers, log_norms):
@@ -41,4 +43,4 @@ def draw_log_norms(ax, powers, log_norms):
         verdict = "ends, a solution" if p % 2 == 0 else "diverges, no solution"
         ax.plot(2 * np.arange(log_norm.size), log_norm / np.log(10), ls=ls, label=f"p = {p}: {verdict}")
     ax.set(xlabel="n", ylabel=r"$\log_{10}\ \sum e^{2n^2t}\,|c_n|^2$")
-    ax.legend()
+    legend_below(ax)

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from primer.view.style import ILL, STEADY, U, V
+from primer.view.style import ILL, STEADY, U, V, legend_below
 
 
 def draw_dist(ax, run, floor=None, label=None, color="black", mark=True, **line):
@@ -50,7 +50,7 @@ def draw_u(ax, runs, fields, colors, styles=("-", "--", "-.")):
         ax.plot(np.append(run.x, np.pi), np.append(u, u[0]), color=color, ls=ls)
     ax.set(xlabel="x", ylabel="u", xlim=(-np.pi, np.pi))
     ax.set_xticks([-np.pi, 0, np.pi], [r"$-\pi$", "0", r"$\pi$"])
-    ax.legend(loc="upper center", ncols=2)
+    legend_below(ax)
 
 
 def draw_against(ax, x, u, exact, label="u"):
@@ -60,7 +60,7 @@ def draw_against(ax, x, u, exact, label="u"):
     ax.plot(np.append(x, np.pi), np.append(u, u[0]), "o-", color=U, ms=3, lw=1, label=label)
     ax.set(xlabel="x", ylabel="u", xlim=(-np.pi, np.pi))
     ax.set_xticks([-np.pi, 0, np.pi], [r"$-\pi$", "0", r"$\pi$"])
-    ax.legend(loc="upper left", ncols=2)
+    legend_below(ax)
 
 
 def draw_fields(ax, run, state, time):
@@ -74,7 +74,7 @@ def draw_fields(ax, run, state, time):
     ax.plot(x, v, color=V, ls="--", label="v")
     ax.set(xlabel="x", ylabel="u, v", xlim=(-np.pi, np.pi), title=f"(b) fields at t = {time:g}")
     ax.set_xticks([-np.pi, 0, np.pi], [r"$-\pi$", "0", r"$\pi$"])
-    ax.legend(loc="upper center", ncols=2)
+    legend_below(ax)
 
 
 def shade_negative(ax, x, u):

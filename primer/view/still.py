@@ -1,6 +1,8 @@
 """Still pictures for notebooks: drawn by the figures' functions, with words for who does not see them."""
 
+import base64
 from dataclasses import dataclass, field
+from html import escape
 
 import numpy as np
 
@@ -22,6 +24,19 @@ class Still:
 
     def _repr_mimebundle_(self, **_):
         return {"image/png": self.png, "text/plain": str(self)}, {"image/png": {"alt": self.alt}}
+
+
+def picture_html(png, alt):
+    """A PNG as HTML that holds it, with its alternative text: what metadata say of an image, no notebook shows.
+
+    JupyterLab's dark theme gets the picture dark: its lightness turned round, its hues kept.
+    """
+    width, height = (int.from_bytes(png[k : k + 4], "big") for k in (16, 20))  # as the PNG's header has them
+    return (
+        "<style>[data-jp-theme-light=false] .primer-picture{filter:invert(1) hue-rotate(180deg)}</style>"
+        f'<img class="primer-picture" alt="{escape(alt)}" width="{width}" height="{height}" decoding="sync" '
+        f'style="max-width:100%;height:auto" src="data:image/png;base64,{base64.b64encode(png).decode()}">'
+    )
 
 
 def still(alt, *panels, height=3.4, width=None):

@@ -2,6 +2,8 @@
 
 import numpy as np
 
+from primer.view.style import legend_below
+
 _COLOURS = {
     "FTCS": "black",
     "central 2": "#E69F00",
@@ -62,7 +64,7 @@ def draw_effort(ax, efforts, top=10.0, ylabel="largest error of u and v"):
         lost = effort.work[~lives]
         ax.loglog(lost, np.full(lost.size, top), "x", color=_look(effort.method)["color"], ms=7, clip_on=False)
     ax.set(xlabel="work: points times evaluations", ylabel=ylabel, ylim=(1e-18, top))
-    ax.legend(loc="lower left", ncols=2)
+    legend_below(ax)
 
 
 def draw_cost(ax, cost):

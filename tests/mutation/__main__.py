@@ -29,9 +29,6 @@ from pathlib import Path
 from guards import Watch, guards
 from mutants import ROOT, Spoil, mutants
 
-#: numba's disk cache looks at the file, which does not change: for files whose code it compiles it gets a new folder.
-COMPILED = "kernel.py", "lines_kernel.py", "toy.py", "compiled.py"
-
 
 def face(known, file, number, first, last, cap):
     """In a fork: run the tests against one mutant. Exit 1 if one fails, 0 if none does; an alarm ends what hangs."""
@@ -54,16 +51,21 @@ def face(known, file, number, first, last, cap):
         "_hypothesis_pytestplugin",
         "--hypothesis-seed=0",
     ]
-    with tempfile.TemporaryDirectory() as cache:
-        if file.endswith(COMPILED):
-            importlib.import_module("numba").config.CACHE_DIR = cache
-        caught = any(pytest.main([*options, *tests]) != 0 for tests in helpings if tests)
+    caught = any(pytest.main([*options, *tests]) != 0 for tests in helpings if tests)
     os._exit(caught)
 
 
 def run(known, out, chosen):
     """Try the sample's mutants that ``out`` does not have yet (with --again, its survivors) and add a line for each."""
-    for library in ("hypothesis", "matplotlib.figure", "mpmath", "numba", "pytest", "scipy.optimize", "sympy"):
+    for library in (
+        "hypothesis",
+        "matplotlib.figure",
+        "mpmath",
+        "llvmlite.binding",
+        "pytest",
+        "scipy.optimize",
+        "sympy",
+    ):
         importlib.import_module(library)  # once, for all forks
     sys.dont_write_bytecode = False  # or every fork would compile the tests anew
     os.environ["PYTEST_DISABLE_PLUGIN_AUTOLOAD"] = "1"

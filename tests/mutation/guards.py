@@ -7,8 +7,10 @@ from pathlib import Path
 import pytest
 from mutants import ROOT
 
-#: Compiled lines are not seen by the coverage measurement: they are guarded by whatever runs their caller.
-CALLER = {"kernel.py": "block.py", "lines_kernel.py": "lines.py"}
+#: What writes machine code runs once for each equation in a process: it is guarded by whatever runs its caller.
+CALLER = dict.fromkeys(
+    ("kernel.py", "watch.py", "slope.py", "pointwise.py", "passes.py", "writer.py", "compiled.py"), "block.py"
+) | {"lines_kernel.py": "lines_block.py"}
 
 HOUSE = (
     "test_dataclasses_are_frozen",

@@ -11,7 +11,7 @@ from primer.view.explorers.controls import Number
 from primer.view.explorers.explorer import Explorer
 from primer.view.growth import draw_growth, shade_growing
 from primer.view.runs import draw_dist, draw_fields
-from primer.view.style import STEADY, V
+from primer.view.style import STEADY, V, legend_below
 
 
 def draw_base_state(axes: Sequence[Axes], answer: BaseStateAnswer, t: float) -> None:
@@ -21,16 +21,15 @@ def draw_base_state(axes: Sequence[Axes], answer: BaseStateAnswer, t: float) -> 
     draw_growth(growth, answer.xi, answer.rate, label="the equations", color="black")
     draw_growth(growth, answer.grid_xi, answer.grid_rate, label=f"on N = {run.n}", cut_off=run.n / 2, ls="--", color=V)
     if answer.growth > 0:
-        growth.axhline(answer.growth, color=V, ls="-.", lw=1, label=f"on N = {run.n}, all x: {answer.growth:.3g}")
+        growth.axhline(answer.growth, color=V, ls="-.", lw=1, label=f"of the whole grid: {answer.growth:.3g}")
     shade_growing(growth, 6)
     growth.set(title="growth frozen at x = 0, (toy-mat)", xlim=(0, 128), ylim=(-2, 6))
-    growth.legend(loc="lower right")
-    draw_dist(dist, run)
-    for time, name, ls in ((answer.predicted, "foretold", ":"), (answer.measured, "blow-up", "-")):
-        if time <= T_END:
-            dist.axvline(time, color=V, ls=ls, lw=1.4, label=f"{name}: t = {time:.3g}")
-    if dist.get_legend_handles_labels()[0]:
-        dist.legend(loc="upper right")
+    legend_below(growth)
+    draw_dist(dist, run, label=f"Dist on N = {run.n}")
+    for time, name, ls, top in ((answer.measured, "blow-up", "-", 1), (answer.predicted, "foretold", ":", 0.4)):
+        if time <= T_END:  # often at one time, and so not of one height
+            dist.axvline(time, ymax=top, color=V, ls=ls, lw=1.4 / top, label=f"{name}: t = {time:.3g}")
+    legend_below(dist)
     dist.set(title="distance to the steady state", xlim=(0, T_END), ylim=(1e-5, 1e3))
     now = min(t, run.t_stop)
     dist.axvline(now, color=STEADY, lw=0.8)
@@ -52,13 +51,14 @@ class BaseStateExplorer(Explorer):
 
     answer = staticmethod(base_state)
     draw = staticmethod(draw_base_state)
-    layout: ClassVar = {"columns": 3, "width": 11.0, "height": 3.5}
+    layout: ClassVar = {"columns": 3, "width": 11.0, "height": 3.9}
     controls = (
         Number("a", "base state a", 1.5, -1.0, 2.0, 0.05),
         Number("eps", "coefficient ε", 0.01, 0.001, 0.1, 0.1, log=True),
         Number("n", "grid points N", 100, 16, 256, 2),
     )
     looks = (Number("t", "time t", T_END, 0.0, T_END, 0.5, play=250),)
+    until = staticmethod(lambda answer: answer.run.t_stop)
     presets: ClassVar = {
         "well posed": "a=1.5",
         "marginal": "a=1.1",

@@ -1,4 +1,4 @@
-"""What a reader can change: numbers with a slider and a box, choices, lines of text; and the texts of a whole state."""
+"""What a reader can change: numbers with a slider and a box, choices, lines of text."""
 
 import math
 from collections.abc import Callable
@@ -6,18 +6,23 @@ from dataclasses import dataclass
 
 import ipywidgets as widgets
 
-from primer.checks import shown
+from primer.checks import real, shown
 
-_LABEL, _BOX = "11em", "7em"
+_LABEL, _BOX = "11em", "8.5em"  # the box holds 0.000501187
+_ROW = widgets.Layout(flex_flow="row wrap")  # where a page is narrow, what does not fit goes below
 
 
 @dataclass(frozen=True)
 class Row:
-    """A control on the page: its widget, what it says, and how to make it say something else without a stir."""
+    """A control on the page: its widget, what it says, and how to make it say something else without a stir.
+
+    ``until(value)`` ends its play button's way there.
+    """
 
     widget: widgets.Widget
     get: Callable
     show: Callable
+    until: Callable = lambda value: None
 
 
 @dataclass(frozen=True)
@@ -57,22 +62,42 @@ class Number:
 
     def text(self, value):
         """The shortest text that gives the number back."""
-        return str(value) if self.whole else f"{value:.12g}"
+        return f"{value:.12g}"
+
+    def check(self, value):
+        """Refuse what is off the slider; only looks are held to it, since what is asked of a scene the scene checks.
+
+        Raises
+        ------
+        ValueError    if it is
+        """
+        real(self.name, value, least=self.low, most=self.high)
 
     def build(self, changed):
         """The ``Row`` of slider and box; ``changed()`` is called once for each change that a reader makes."""
         tip = f"{self.label}: drag, or use the arrow keys"
         common = {"description": self.label, "tooltip": tip, "readout": False, "continuous_update": True}
-        wide = {"layout": widgets.Layout(flex="1 1 12em", min_width="12em"), "style": {"description_width": _LABEL}}
+        wide = {"layout": widgets.Layout(flex="1 1 20em", min_width="17em"), "style": {"description_width": _LABEL}}
         if self.log:
             ends = {"min": math.log10(self.low), "max": math.log10(self.high), "step": self.step}
             slider = widgets.FloatLogSlider(self._place(self.default), **ends, **common, **wide)
         else:
             sort = widgets.IntSlider if self.whole else widgets.FloatSlider
             slider = sort(self._place(self.default), min=self.low, max=self.high, step=self.step, **common, **wide)
-        sort = widgets.IntText if self.whole else widgets.FloatText
-        box = sort(self.default, continuous_update=False, layout=widgets.Layout(width=_BOX), tooltip=self.label)
+        # Never an IntText: a browser makes 655 of what is typed there as 65.5.
+        box = widgets.FloatText(
+            self.default, step=None, continuous_update=False, layout=widgets.Layout(width=_BOX), tooltip=self.label
+        )
         busy = []
+
+        last = round((self.high - self.low) / self.step)
+        play = None
+        if self.play:
+            play = widgets.Play(max=last, interval=self.play, show_repeat=False, tooltip=f"play {self.label}")
+
+        def until(value):
+            if play:
+                play.max = min(math.ceil((value - self.low) / self.step - 1e-9), last) or last
 
         def show(value):
             busy.append(True)
@@ -80,6 +105,8 @@ class Number:
                 box.value = value
                 if math.isfinite(value):
                     slider.value = self._place(value)
+                    if play:  # goes on from here, and from the end all over again
+                        play.value = self._notch(value) if self._notch(value) < play.max else 0
             finally:
                 busy.pop()
 
@@ -95,13 +122,14 @@ class Number:
 
         slider.observe(moved, "value")
         box.observe(typed, "value")
-        parts = [slider, box]
-        if self.play:
-            last = round((self.high - self.low) / self.step)
-            play = widgets.Play(max=last, interval=self.play, show_repeat=False, tooltip=f"play {self.label}")
+        if play:
             play.observe(lambda change: moved({"new": self.low + self.step * change["new"]}), "value")
-            parts.append(play)
-        return Row(widgets.HBox(parts), lambda: box.value, show)
+        parts = [slider, box, play] if play else [slider, box]
+        return Row(widgets.HBox(parts, layout=_ROW), lambda: self._said(box.value), show, until)
+
+    def _said(self, value):
+        """A whole number where one is meant and typed; anything else as it is, to be refused."""
+        return int(value) if self.whole and float(value).is_integer() else value
 
     def _place(self, value):
         """The nearest place on the slider: a browser moves it there from any other."""
@@ -141,6 +169,10 @@ class Choice:
 
     text = staticmethod(str)
 
+    def check(self, value):
+        """As of ``Number``."""
+        self.parse(value)
+
     def build(self, changed):
         """The ``Row`` of this control, as for ``Number``."""
         menu = widgets.Dropdown(
@@ -151,27 +183,42 @@ class Choice:
 
 @dataclass(frozen=True)
 class Line:
-    """A line of text, such as a PDE."""
+    """Lines of text, such as PDEs; with ``rows`` above 1 in a box that is left, by Tab or a click, to be answered."""
 
     name: str
     label: str
     default: str
+    rows: int = 1
 
-    parse = text = staticmethod(str)
+    parse = staticmethod(str)
+
+    def text(self, value):
+        """In one line: where the box has a new line, a text has a semicolon."""
+        return "; ".join(filter(None, (line.strip().rstrip(";") for line in value.splitlines())))
+
+    def check(self, value):
+        """As of ``Number``; there is nothing to refuse."""
 
     def build(self, changed):
         """The ``Row`` of this control, as for ``Number``."""
-        box = widgets.Text(
+        sort = widgets.Textarea if self.rows > 1 else widgets.Text
+        box = sort(
             self.default,
             description=self.label,
             continuous_update=False,
-            layout=widgets.Layout(width="auto", flex="1 1 auto"),
+            layout=widgets.Layout(flex="1 1 20em", min_width="17em", width="auto"),
             style={"description_width": _LABEL},
         )
-        return _watched(box, changed)
+        if self.rows == 1:
+            return _watched(box, changed)
+        box.rows = self.rows
+        answer = widgets.Button(
+            description="answer", tooltip="or leave the box with Tab", layout=widgets.Layout(width="auto")
+        )
+        return _watched(box, changed, answer)
 
 
-def _watched(widget, changed):
+def _watched(widget, changed, *beside):
     busy = []
 
     def show(value):
@@ -182,34 +229,4 @@ def _watched(widget, changed):
             busy.pop()
 
     widget.observe(lambda change: busy or changed(), "value")
-    return Row(widgets.HBox([widget]), lambda: widget.value, show)
-
-
-def defaults(controls):
-    """Name -> value where nothing has been moved."""
-    return {control.name: control.default for control in controls}
-
-
-def write_state(controls, values):
-    """A state as a text to copy: ``a=0.6,eps=0.01,n=64``."""
-    return ",".join(f"{control.name}={control.text(values[control.name])}" for control in controls)
-
-
-def read_state(controls, text):
-    """Name -> value from such a text, of what it names.
-
-    Raises
-    ------
-    ValueError    if it is not of this form, names what is not there, or names something twice
-    """
-    known, values = {control.name: control for control in controls}, {}
-    for part in str(text).split(","):
-        name, equals, value = (piece.strip() for piece in part.partition("="))
-        if not part.strip():
-            continue
-        if not equals or name not in known:
-            raise ValueError(f"state must be NAME=VALUE parted by commas, of {', '.join(known)}, got {shown(part)}")
-        if name in values:
-            raise ValueError(f"state must say {name} once, got {shown(text)}")
-        values[name] = known[name].parse(value)
-    return values
+    return Row(widgets.HBox([widget, *beside], layout=_ROW), lambda: widget.value, show)

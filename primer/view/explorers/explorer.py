@@ -1,5 +1,7 @@
 """The explorer: controls, a verdict in words and a picture, kept in step."""
 
+import math
+import re
 from collections.abc import Callable
 from html import escape
 from threading import RLock
@@ -9,10 +11,10 @@ from typing import Any, ClassVar, Self
 import ipywidgets as widgets
 
 from primer.checks import shown
-from primer.view.explorers.controls import defaults, read_state, write_state
 from primer.view.explorers.snapshot import Snapshot
+from primer.view.explorers.state import defaults, read_state, write_state
 from primer.view.picture import Picture
-from primer.view.still import render
+from primer.view.still import picture_html, render
 
 # A notebook may call back from a thread of its own while a cell still draws, and matplotlib draws one thing at a time.
 _DRAWING = RLock()
@@ -39,6 +41,7 @@ class Explorer:
     controls    tuple of ``Number``, ``Choice`` and ``Line``: what the answer depends on
     looks       tuple of the same: how the answer is looked at, such as the time; they cost no new answer
     presets     name -> state: settings worth seeing
+    until       ``until(answer)`` is the time at which playing may end, infinite if at the end of the slider
     """
 
     answer: ClassVar[Callable]
@@ -47,12 +50,14 @@ class Explorer:
     controls: ClassVar[tuple]
     looks: ClassVar[tuple] = ()
     presets: ClassVar[dict]
+    until: ClassVar[Callable] = staticmethod(lambda answer: math.inf)
 
     def __init__(self, **values: Any) -> None:
         self.verdict = ""
         self._picture = Picture(self.layout, self.draw)
         self._asked: dict[str, Any] | None = None
         self._answer: Any = None
+        self._png = b""
         self._rows = {control.name: control.build(self._update) for control in self._all()}
         self._said, self._image, self._copy = _outputs()
         self._copy.observe(self._restore, "value")
@@ -99,7 +104,7 @@ class Explorer:
     @property
     def png(self) -> bytes:
         """The picture, as bytes."""
-        return bytes(self._image.value)
+        return self._png
 
     def set(self, **values: Any) -> None:
         """Move some controls at once; the answer is found once.
@@ -136,21 +141,38 @@ class Explorer:
                 self._asked = None
                 self._answer = type(self).answer(**asked)
                 self._asked = asked
-            png = self._picture.png(self._answer, looks)
+                for row in self._rows.values():
+                    row.until(type(self).until(self._answer))
+            for control in self.looks:
+                control.check(looks[control.name])
+            self._png = self._picture.png(self._answer, looks)
             self._say(self._answer.verdict)
-            self._image.value = png  # last: who sees the picture can read what it says
+            self._image.value = picture_html(self._png, self.verdict)  # last: who sees it can read what it says
         except Exception as error:
-            self._say(str(error) or type(error).__name__, wrong=True)
+            self._say(self._labelled(str(error) or type(error).__name__), wrong=True)
         finally:
             _DRAWING.release()
 
     def _say(self, text, wrong=False):
         self.verdict = text
-        role = "alert" if wrong else "status"
-        self._said.value = f'<div role="{role}" aria-live="polite" class="primer-verdict">{escape(text)}</div>'
-        self._image.layout.visibility = "hidden" if wrong else "visible"  # an old picture would mislead
+        role, mark = ("alert", "<b>Not answered.</b> ") if wrong else ("status", "")
+        self._said.value = (
+            f'<div role="{role}" aria-live="polite" class="primer-said primer-{role}">'
+            f'{mark}<span class="primer-verdict">{escape(text)}</span></div>'
+        )
+        if wrong:  # the picture is of another state
+            self._image.add_class("primer-stale")
+        else:
+            self._image.remove_class("primer-stale")
         with self._copy.hold_trait_notifications():
             self._copy.value = self.state
+
+    def _labelled(self, text):
+        """A sentence about a name, said of the label that the reader sees, with the name as a state has it."""
+        subject, *rest = re.split(r"(?= must | cannot )", text, maxsplit=1)
+        for control in self._all() if rest else ():
+            subject = re.sub(rf"(?<!\w){control.name}(?!\w)", f"{control.label} ({control.name})", subject)
+        return subject + "".join(rest)
 
     def _go_to(self, state):
         """To this state, and to the default of what it leaves out."""
@@ -162,7 +184,7 @@ class Explorer:
             try:
                 self._go_to(change["new"])
             except ValueError as error:
-                self._say(str(error), wrong=True)
+                self._say(self._labelled(str(error)), wrong=True)
 
     def _arranged(self):
         buttons = []
@@ -174,14 +196,16 @@ class Explorer:
         reset.on_click(lambda _: self.reset())
         choices = widgets.HBox([*buttons, reset], layout=widgets.Layout(flex_flow="row wrap"))
         rows = [row.widget for row in self._rows.values()]
-        box = widgets.VBox([choices, *rows, self._said, self._image, self._copy])
+        # The verdict below the picture: as it wraps the picture stays where it is.
+        box = widgets.VBox([widgets.HTML(_STYLE), choices, *rows, self._image, self._said, self._copy])
         box.add_class("primer-explorer")
         return box
 
     def _repr_mimebundle_(self, **options):
         bundle = self.widget._repr_mimebundle_(**options)
         data = bundle[0] if isinstance(bundle, tuple) else bundle
-        return {**data, "text/plain": f"{type(self).__name__}.from_state({self.state!r})\n{self.verdict}"}
+        text = f"{type(self).__name__}.from_state({self.state!r})\n{self.verdict}"
+        return {**data, "text/plain": text}
 
     @classmethod
     def _all(cls):
@@ -202,11 +226,19 @@ class Explorer:
         return tuple({n: v for n, v in values.items() if (n in looks) is look} for look in (False, True))
 
 
+_STYLE = """<style>
+.primer-explorer { max-width: 1100px; }
+.primer-explorer .primer-picture { width: 100%; }
+.primer-stale { opacity: 0.25; }
+.primer-said { padding: 4px 10px; border-left: 4px solid #7d858c; line-height: 1.5; min-height: 3em; }
+.primer-alert { border: 2px solid #c0392b; border-left-width: 8px; min-height: 0; }
+</style>"""
+
+
 def _outputs():
     """(verdict, picture, state) as widgets."""
-    said = widgets.HTML(layout=widgets.Layout(margin="4px 0"))
-    # No tooltip here: JupyterLab cannot show an Image that has one.
-    image = widgets.Image(format="png", layout=widgets.Layout(max_width="100%", object_fit="contain"))
+    said = widgets.HTML(layout=widgets.Layout(margin="4px 0", height="auto"))
+    image = widgets.HTML(layout=widgets.Layout(max_width="100%"))  # a widgets.Image has no alternative text
     copy = widgets.Text(
         description="state",
         tooltip="Copy this to come back here; paste one and press Enter to go there",

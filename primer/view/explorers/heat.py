@@ -13,7 +13,7 @@ from primer.view.explorers.controls import Number
 from primer.view.explorers.explorer import Explorer
 from primer.view.growth import draw_growth
 from primer.view.runs import draw_against
-from primer.view.style import STEADY
+from primer.view.style import STEADY, legend_below
 
 _LINES = ("-", "--")
 
@@ -41,9 +41,9 @@ def draw_heat(axes: Sequence[Axes], answer: HeatAnswer, t: float) -> None:
     departure.axhline(TOLERANCE, color=STEADY, ls="--", lw=1)
     departure.axvline(t, color=STEADY, lw=0.8)
     departure.set(title="what grows beside sin x", xlabel="t", ylabel="size", xlim=(0, T_END), ylim=(1e-17, 1e9))
-    departure.legend(loc="upper right")
+    legend_below(departure, ncols=1)
     growth.set(title="growth rate of each wave", xlim=(1, 128), ylim=(0.5, 1e5))
-    growth.legend(loc="upper left")
+    legend_below(growth)
 
 
 def _u(run, t):
@@ -60,13 +60,14 @@ class HeatExplorer(Explorer):
 
     answer = staticmethod(heat)
     draw = staticmethod(draw_heat)
-    layout: ClassVar = {"columns": 3, "width": 11.0, "height": 3.5}
+    layout: ClassVar = {"columns": 3, "width": 11.0, "height": 4.1}
     controls = (
         Number("n", "grid points N", 24, 12, 64, 4),
         Number("courant", "courant = dt/h²", 0.05, 0.01, 1.0, 0.1, log=True),
         Number("seed", "sawtooth in the data", 1e-12, 1e-16, 1e-2, 0.5, log=True),
     )
     looks = (Number("t", "time t", 0.5, 0.0, T_END, 0.01, play=100),)
+    until = staticmethod(lambda answer: answer.onset.refinement.runs[0].t_stop)
     presets: ClassVar = {
         "a sawtooth of 1e-12": "seed=1e-12",
         "the last bit is enough": "seed=0,t=0.7",

@@ -12,7 +12,7 @@ from primer.scenes.pde import TOY, XI, PDEAnswer, pde
 from primer.view.explorers.controls import Choice, Line, Number
 from primer.view.explorers.explorer import Explorer
 from primer.view.growth import draw_growth, shade_growing
-from primer.view.style import STEADY, V
+from primer.view.style import STEADY, V, legend_below
 
 _WIDE, _TALL = 42, 20  # characters and lines of the symbol that fit beside the picture
 
@@ -24,20 +24,20 @@ def draw_pde(axes: Sequence[Axes], answer: PDEAnswer) -> None:
     cut_off = answer.n / 2
     draw_growth(growth, answer.grid_xi, answer.grid_rate, label=f"on N = {answer.n}", cut_off=cut_off, ls="--", color=V)
     found = answer.found
-    if found.direction and found.coefficient:
+    if np.isfinite(float(found.exponent)) and found.coefficient:
         far = XI[XI >= 10]
         law = Law(Fraction(found.exponent), found.coefficient)
         name = str(law).replace("lambda", "λ").replace("xi", "ξ").replace("->", "→")
         growth.plot(far, found.coefficient * far ** float(found.exponent), color=STEADY, ls=":", lw=2.5, label=name)
     top, bottom = _decades(np.nanmax(answer.rate)), min(_decades(-np.nanmin(answer.rate)), 3)
     growth.set_xscale("log")
-    growth.set_yscale("symlog", linthresh=0.1)
+    growth.set_yscale("asinh", linear_width=0.1)
     step = -(-max(top, bottom) // 4)
     powers = [-(10.0**j) for j in range(0, bottom + 1, step)] + [0.0] + [10.0**j for j in range(0, top + 1, step)]
     growth.set(xlim=(XI[0], XI[-1]), yticks=powers, ylim=(-2 * 10.0**bottom, 2 * 10.0**top))
     growth.set(xlabel=r"wavenumber $|\xi|$", title="growth of the frozen equations")
     shade_growing(growth, 2 * 10.0**top)
-    growth.legend(loc="upper left")
+    legend_below(growth, ncols=3)
     beside.set_axis_off()
     beside.text(0, 1, _symbol_text(answer), va="top", family="monospace", fontsize=9, parse_math=False)
     beside.set(xlim=(0, 1), ylim=(0, 1), title="waves q e^(iξx + λt) obey")
@@ -67,7 +67,7 @@ class PDEExplorer(Explorer):
     draw = staticmethod(draw_pde)
     layout: ClassVar = {"columns": 2, "width": 10.0, "height": 3.9, "width_ratios": (1.5, 1)}
     controls = (
-        Line("pde", "equations", TOY),
+        Line("pde", "equations", TOY, rows=2),
         Line("at", "base state", "u=-0.5 v_xx=0.3 eps=0.01"),
         Choice("order", "terms kept", "full", ("full", "maximal")),
         Number("n", "grid points N", 64, 8, 512, 8),

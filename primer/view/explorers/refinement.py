@@ -12,7 +12,7 @@ from primer.view.explorers.controls import Number
 from primer.view.explorers.explorer import Explorer
 from primer.view.growth import draw_growth, shade_growing
 from primer.view.runs import draw_dist, draw_u
-from primer.view.style import STEADY
+from primer.view.style import STEADY, legend_below
 
 _LINES = ("-", "--", "-.")
 
@@ -30,12 +30,13 @@ def draw_refinement(axes: Sequence[Axes], answer: RefinementAnswer, t: float) ->
     dist.plot([], [], color=STEADY, ls=":", lw=1.2, label="floors h/sin h $-$ 1")
     dist.axvline(t, color=STEADY, lw=0.8)
     dist.set(title="distance to the steady state", xlim=(0, T_END), ylim=(1e-5, 1e7))
-    dist.legend(loc="upper right")
+    legend_below(dist)
     draw_u(u, answer.runs, [_u(run, t) for run in answer.runs], colors=[f"C{i}" for i in range(3)])
     top = 4.0 if -1 <= coarsest.problem.a <= 2 else coarsest.problem.a + 3
     u.set(ylim=(top - 7, top + 1.5), title=f"u at t = {t:.4g}, or where it stopped")
     growth.set(title=f"growth in steps of dt = {coarsest.dt:.2g}", xlim=(0, 128), ylim=(-2, 300))
-    growth.set_yscale("symlog", linthresh=1)
+    growth.set_yscale("asinh", linear_width=1)
+    growth.set_yticks([-1, 0, 1, 10, 100])
     shade_growing(growth, 300)
 
 
@@ -52,13 +53,14 @@ class RefinementExplorer(Explorer):
 
     answer = staticmethod(refinement)
     draw = staticmethod(draw_refinement)
-    layout: ClassVar = {"columns": 3, "width": 11.0, "height": 3.5}
+    layout: ClassVar = {"columns": 3, "width": 11.0, "height": 3.9}
     controls = (
         Number("a", "base state a", 0.5, -1.0, 2.0, 0.05),
         Number("n", "N of the coarsest", 50, 12, 64, 2),
         Number("dt", "time step dt", 1e-3, 1e-4, 3e-2, 0.05, log=True),
     )
     looks = (Number("t", "time t", T_END, 0.0, T_END, 0.5, play=250),)
+    until = staticmethod(lambda answer: max(run.t_stop for run in answer.runs))
     presets: ClassVar = {
         "well posed": "a=1.5",
         "marginal": "a=1.05,n=64",

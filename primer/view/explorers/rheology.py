@@ -12,7 +12,7 @@ from primer.scenes.rheology import LAWS, Kind, RheologyAnswer, rheology
 from primer.view.explorers.controls import Choice, Number
 from primer.view.explorers.explorer import Explorer
 from primer.view.granular_growth import KINDS, draw_growth, draw_map, draw_polar, frame_polar, look
-from primer.view.style import STEADY
+from primer.view.style import STEADY, legend_below
 
 K = np.geomspace(1e-2, 1e4, 61)
 DECADES = 8  # of growth that the polar panel shows
@@ -35,7 +35,7 @@ def draw_rheology(axes: Sequence[Axes], answer: RheologyAnswer, k: float) -> Non
         _draw_law(growth, answer)
         growth.plot(k, fastest(c, k)[0] / c.D, "o", color=color, mec="black")
         growth.axvline(k, color=STEADY, lw=0.8, ls=":")
-        growth.legend(loc="upper left")
+        legend_below(growth)
     polar.set_title(rf"growth over direction at $|\xi|\,d = {k:.3g}$", loc="center", pad=22)
     _frame(polar, growth)
     draw_map(states, answer.map.I, answer.map.ratio, answer.map.kind)
@@ -81,7 +81,7 @@ def _draw_law(ax, answer):
 def _frame(polar, growth):
     """Limits that stay, so that nothing jumps when a slider moves."""
     growth.set_xscale("log")
-    growth.set_yscale("symlog", linthresh=1)
+    growth.set_yscale("asinh", linear_width=1)
     growth.set(xlim=(K[0], K[-1]), title="largest growth over all directions")
     growth.set(yticks=[-1e3, 0, 1e3, 1e6, 1e9, 1e12], ylim=(-1e3, 1e13))
     growth.set(xlabel=r"$|\xi|\, d$", ylabel=r"largest growth rate$\,/\,\|D\|$")
@@ -96,7 +96,7 @@ class RheologyExplorer(Explorer):
     layout: ClassVar = {
         "columns": 3,
         "width": 11.0,
-        "height": 3.9,
+        "height": 4.3,
         "width_ratios": (1, 1.15, 1.15),
         "per_subplot_kw": {0: {"projection": "polar"}},
     }
