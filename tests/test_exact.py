@@ -28,7 +28,7 @@ def test_it_is_the_scheme_in_many_digits(n, a, eps, dt):
     np.testing.assert_array_equal(ours.x, many.x)
 
 
-def test_its_last_digits_are_those_of_the_one_text_of_the_equation(monkeypatch):
+def test_its_last_digits_are_those_of_the_one_text_of_the_equation():
     """One step in 60 digits from the text of eq. (toy-pde), differences by hand, to 39 of 40 digits."""
     n, dt, toy = 10, 0.01, Toy(0.5, 0.03)
     exact = arithmetic(digits=60)
@@ -40,25 +40,12 @@ def test_its_last_digits_are_those_of_the_one_text_of_the_equation(monkeypatch):
         u_t, v_t = tendency(u, v, u_x, v_x, (ahead[1] - 2 * v + behind[1]) / h**2, toy.forcing(x), toy.eps)
         u, v = u + dt * u_t, v + dt * v_t
     asked = module.plan(n, dt, 3 * dt, None, (), None, 1e3, np.float64, None)
-    monkeypatch.setattr(module, "compiled", lambda name: None)  # whole numbers rather than limbs
     numbers = module._Numbers(toy, asked, 40)
     numbers.advance(3, toy.steady(asked.grid.x)[0][:6], 1e6)
     c, s = dt / (2 * h), exact.number(toy.eps) * dt / h**2
     one = exact.number(2) ** numbers.bits
     assert max(abs(exact.number(int(z)) / one / s - w) for z, w in zip(numbers.U, u[:6], strict=True)) < 1e-39
     assert max(abs(exact.number(int(z)) / one / (s * c) - w) for z, w in zip(numbers.V, v[:6], strict=True)) < 1e-39
-
-
-@pytest.mark.parametrize("n", [24, 25, 60])
-@pytest.mark.parametrize(("a", "eps"), [(0.5, 0.01), (-1.0, 0.05), (0.3, 0.0), (-3.0, 0.5)])
-def test_compiled_or_not_the_numbers_are_the_same(n, a, eps, monkeypatch):
-    toy, settings = Toy(a, eps), {"n": n, "dt": 2e-3, "t_end": 1.0, "digits": 30, "record_every": 7}
-    quick = exact_march(toy, **settings)
-    monkeypatch.setattr(module, "compiled", lambda name: None)
-    plain = exact_march(toy, **settings)
-    assert (quick.stop, quick.t_stop, quick.t_first_negative) == (plain.stop, plain.t_stop, plain.t_first_negative)
-    for mine, theirs in zip((*quick.final, quick.dist), (*plain.final, plain.dist), strict=True):
-        np.testing.assert_allclose(mine, theirs, rtol=1e-13, atol=1e-15)
 
 
 def lost(n, digits, t_end):
@@ -111,12 +98,13 @@ def test_round_off_grows_no_faster_than_the_bound_by_which_digits_are_chosen(mon
     rates = []
     true_rate = module._rate
     monkeypatch.setattr(module, "_rate", lambda *of: rates.append(true_rate(*of)) or rates[-1])
-    settings = {"n": 64, "dt": 1e-3, "t_end": 4.0, "record_every": 100, "blow_up_at": 1e6}
+    settings = {"n": 64, "dt": 1e-3, "t_end": 3.0, "record_every": 100, "blow_up_at": 1e6}
     few, many = (exact_march(Toy(-1.0, 0.02), digits=digits, **settings) for digits in (20, 60))
     apart = max(np.abs(f - g).max() for f, g in zip(few.final, many.final, strict=True))
-    growth = 0.1 * sum(map(max, zip(rates[42:], rates[41:-1], strict=False)))
+    last = rates[len(rates) // 2 :]  # those of the second run, every 0.1
+    growth = 0.1 * sum(map(max, zip(last[1:], last[:-1], strict=True)))
     assert few.stop is many.stop is Stop.REACHED_END
-    assert 1e-13 < apart < 1e-18 * math.exp(growth)
+    assert 1e-14 < apart < 1e-18 * math.exp(growth)
 
 
 def test_where_nothing_grows_it_comes_to_rest_on_the_floor():
@@ -131,8 +119,7 @@ def test_bad_input_gets_one_sentence(monkeypatch):
         ((3,), TypeError, "toy must be a Toy"),
         ((Toy(0.5), 100, 1e-3, 1.0, 1901), ValueError, "digits must be an integer .*1900"),
         ((Toy(0.5), 100, 1e-3, 1.0, 1), ValueError, "digits must be"),
-        ((Toy(0.5), 100, 1e-3, 1.0, 30, None, 1e7), ValueError, "blow_up_at must be"),
-        ((Toy(0.5, 10), 1000, 1.0, 1.0), ValueError, "dt must be such that eps dt/h\\^2 is at most 100"),
+        ((Toy(0.5), 100, 1e-3, 1.0, 30, None, 0), ValueError, "blow_up_at must be"),
         ((Toy(0.5), 3), ValueError, "n must be"),
     ):
         with pytest.raises(error, match=words):

@@ -28,8 +28,8 @@ _MUCH_LATER = 2.0  # a blow-up that a smaller step puts off by this factor is th
 _DOUBLE = (
     17  # digits; with more, what the smooth solution does by itself is marched, for double precision cannot see it
 )
-_WAVE, _GROWTH = 0.25, 0.04  # steps over h^2 and over 1/growth to which such a march may be coarsened
-_MAX_WORK = 1e12  # products of limbs in it: ten minutes
+_WAVE, _GROWTH = 0.3, 0.04  # steps over h^2 and over 1/growth to which such a march may be coarsened
+_MAX_WORK = 3e8  # products of numbers in it: ten minutes and more
 _SMALL = 0.05  # a step so far below the scheme's limit that only the equations are left to blame
 
 
@@ -127,10 +127,13 @@ def diagnose(
     many = digits if digits is not None and digits > _DOUBLE else None
     found, gentle = _foreseen(toy, n, dt, t_end, seed, epsilon, many), None
     blows_up, t_dip = found.t_blow_up <= t_end, found.t_first_negative
-    if blows_up:
+    if blows_up and many and found.smooth and dt <= _accurate(toy, n):
+        gentle = found
+    elif blows_up:
         gentle = _with_a_small_step(toy, n, dt, max(t_end, 1.5 * found.t_blow_up), seed, epsilon, many) or found
         t_dip = gentle.t_first_negative  # which the scheme may not have let it reach
-    later = gentle.t_blow_up / max(found.t_blow_up, dt) if gentle else 1.0
+    gentle = gentle or found
+    later = gentle.t_blow_up / max(found.t_blow_up, dt)
     if blows_up and (gentle.t_blow_up > max(t_end, 1.5 * found.t_blow_up) or later > _MUCH_LATER):
         kind = Kind.SCHEME
     elif toy.eps > 0 and toy.a < 1:
@@ -150,18 +153,24 @@ def _foreseen(toy, n, dt, t_end, seed, epsilon, digits, **options):
     if digits is None:
         return forecast(toy, n, dt, t_end, seed, epsilon, **options)
     found = forecast(toy, n, dt, t_end, seed, epsilon, smooth_too=False, **options)
-    until, h, fastest = min(found.t_blow_up, t_end), Grid(n).h, 4 * toy.eps * (1.2 - toy.a) / Grid(n).h ** 2
-    step = max(dt, min(_WAVE * h**2, _GROWTH / max(fastest, 1.0)))
-    work = until / step * n / 2 * (min(digits, MOST_DIGITS) / 7) ** 2  # a limb is some seven digits
-    if work > _MAX_WORK:
+    until = min(found.t_blow_up, t_end)
+    step = max(dt, _accurate(toy, n))
+    if until / step * n > _MAX_WORK:
         raise ValueError(
-            f"n, dt, t_end and digits must leave at most {_MAX_WORK:.0e} products to a diagnosis, got {work:.0e}: {n} "
-            f"points, {until / step:.0f} steps, {digits} digits"
+            f"n, dt and t_end must be such that n t_end/dt <= {_MAX_WORK:.0e} where a diagnosis is asked for with more "
+            f"than {_DOUBLE} digits, got n = {n} and {until / step:.0f} steps"
         )
     alone = exact_march(toy, n, step, until, min(digits, MOST_DIGITS))
     if alone.stop is not Stop.BLEW_UP:
         return found
     return Forecast(alone.t_stop, False, True, alone.t_first_negative)
+
+
+def _accurate(toy, n):
+    """A step by which the smooth solution is marched well enough to say when it is lost, where the scheme is stable."""
+    h = Grid(n).h
+    fastest = 4 * toy.eps * (1.2 - toy.a) / h**2  # at the least u on the way
+    return min(_WAVE * h**2, _GROWTH / max(fastest, 1.0))
 
 
 def _with_a_small_step(toy, n, dt, t_end, seed, epsilon, digits=None):
