@@ -12,6 +12,7 @@ from primer.claims import VERDICTS, claims
 from primer.claims import report as claims_report
 from primer.granular.command import add_command as add_granular
 from primer.lab import add_command as add_lab
+from primer.run import add_command as add_run
 from primer.terminal import Parser, coloured
 
 _GREETING = """Welcome to primer: change one number, and watch a system of PDEs stop making sense.
@@ -54,6 +55,7 @@ def _parser():
     parser.add_argument("--version", action="version", version=f"primer {__version__}")
     commands = parser.add_subparsers(metavar="COMMAND", required=True)
     _add_verdict(commands)
+    add_run(commands)
     add_granular(commands)
     add_lab(commands)
     _add_claims(commands)
@@ -97,10 +99,11 @@ def _verdict(options):
         number = {"exponent": _plain(found.exponent), "exponent_text": str(found.exponent)}
         rest = {name: _plain(getattr(found, name)) for name in ("coefficient", "bound")}
         rest |= {"direction": list(found.direction), "grows": found.grows, "unstable": found.unstable}
-        rest |= {"reason": found.reason}
+        rest |= {"loss": _plain(found.loss), "reason": found.reason}
         return json.dumps({"kind": str(found.kind), **number, **rest}, indent=1)
     growing = (", unstable" if found.unstable else ", with growth") if 0 < found.bound < math.inf else ""
-    rows = [("verdict", str(found.kind) + growing)]
+    weakly = "weakly " if 0 < found.loss < math.inf else ""
+    rows = [("verdict", weakly + str(found.kind) + growing)]
     if math.isfinite(found.exponent):
         rows.append(("short waves", str(Law(Fraction(found.exponent), found.coefficient))))
     if found.direction:

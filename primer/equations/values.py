@@ -15,6 +15,7 @@ from primer.equations.tree import split_name
 from primer.equations.variables import canonical
 
 BITS = 100_000  # the largest exact power, in bits: 3^(10^9) would take for ever
+LARGEST_SLOPE = 1e100
 LARGEST = 1e6  # the largest argument of a function: the exponential of this has half a million digits before its point
 
 
@@ -151,7 +152,7 @@ def evaluated(expression, values):
         raise PDEError(
             f"the base state makes {_short(expression)} divide by zero: it cannot be linearised there"
         ) from None
-    if not mp.isfinite(number) or abs(number) > 1e100:
+    if not mp.isfinite(number) or abs(number) > LARGEST_SLOPE:
         raise PDEError(f"the base state makes {_short(expression)} {mp.nstr(number, 3)}: not a number to work with")
     return number
 

@@ -1,5 +1,6 @@
 """The scene of any PDE: type it, freeze it at a base state, and see what its short waves do, on a grid too."""
 
+import math
 import re
 from dataclasses import dataclass
 from functools import lru_cache
@@ -171,6 +172,8 @@ def _judged(found, pde, order):
     kind = {Kind.ILL_POSED: "Ill posed", Kind.UNDECIDED: "Undecided", Kind.WELL_POSED: "Well posed"}[found.kind]
     if found.kind is Kind.WELL_POSED and found.grows:
         kind = "Well posed but unstable" if found.unstable else "Well posed, with growth"
+    if 0 < found.loss < math.inf:
+        kind = f"Weakly {kind[0].lower()}{kind[1:]}"
     alone = ", with the highest derivatives alone" if order == "maximal" else ""
     text = " ".join(pde.split())
     return f"{kind} ({text if len(text) <= 60 else text[:57] + '...'}{alone}): {reason}"
