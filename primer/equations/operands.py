@@ -114,7 +114,9 @@ def arguments(p):
 
 def power_of_a_function(p, name, token):
     r"""sin^2(x), \sin^2 x: a whole power of 2 or more; what sin^-1 would be, nobody knows."""
-    exponent = script(p) if p.token.kind == "script" else (p.take(), primary(p))[1]
+    if p.token.kind != "script":
+        p.take()
+    exponent = script(p) if p.token.kind == "script" else p.signed()
     whole = exponent.kind == "number" and re.fullmatch(r"[2-9]|\d\d+", exponent.value[0]) and not exponent.value[1]
     if not whole or not p.at("("):
         p.fail(f"a power of {name} is written {name}(u)^2; 1/{name}(u) and a{name}(u) are two things", token.place)
