@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
+
+import numpy as np
 
 from primer.checks import real
 from primer.equations.error import PDEError
@@ -84,5 +85,6 @@ def _problem(text, at, initial, period):
 
 def until(found: AtWork) -> float:
     """The share of the time at which playing may end: when the last grid was lost."""
-    lost = [math.inf] if found.marched is None else found.marched.lost
-    return 1.0 if max(lost) == math.inf else max(lost) / found.marched.t[-1]
+    if found.marched is None or np.isinf(found.marched.lost).any():
+        return 1.0
+    return float(found.marched.lost.max() / found.marched.t[-1])
