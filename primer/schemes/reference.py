@@ -4,15 +4,18 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from functools import lru_cache
+from typing import Any
 
 import numpy as np
 
 from primer.checks import instance, real, real_array, shown
+from primer.problems.pde import PDE
 from primer.problems.toy import Toy
 from primer.schemes.fourier import FOURIER, interpolate, transfer
 from primer.schemes.grid import Grid
 from primer.schemes.lines import MAX_STEPS, stable_step, trace
 from primer.schemes.runge_kutta import RK8
+from primer.schemes.solution import NoAnswer, solve
 from primer.types import ArrayLike
 
 # Grid points tried in turn, each judged by the next. Multiples of 8 fill a processor's vector registers.
@@ -89,7 +92,7 @@ class Reference:
         return interpolate(self.u, x), interpolate(self.v, x)
 
 
-def reference(toy: Toy, t: ArrayLike, tol: float = 1e-10) -> Reference:
+def reference(toy: Toy | PDE, t: ArrayLike, tol: float = 1e-10) -> Any:
     """The solution of the toy system at the times t with an error of at most about ``tol``, or a refusal.
 
     Fourier collocation in space and the fixed step ``RK8`` in time. The march is made twice, the second time with at
@@ -104,7 +107,8 @@ def reference(toy: Toy, t: ArrayLike, tol: float = 1e-10) -> Reference:
 
     Parameters
     ----------
-    toy : Toy      the problem
+    toy : Toy      the problem; or a ``PDE``, for which the answer is a ``Solution`` of :mod:`primer.schemes.solution`:
+                   two grids in agreement, and growth rates that stay bounded along the way, or a refusal
     t              a time or a sequence of times >= 0, in any order, repeated or not
     tol : float    the largest error of u and v asked for, 128 units in the last place of |a| + 2 at least, below 1
 
@@ -122,6 +126,8 @@ def reference(toy: Toy, t: ArrayLike, tol: float = 1e-10) -> Reference:
     >>> bool(np.abs(truth.u - toy.exact(truth.x, 2.0)[0]).max() < 1e-10)  # eq. (toy-sln)
     True
     """
+    if isinstance(toy, PDE):
+        return _of_any(toy, _times(t), real("tol", tol, above=0, below=1))
     instance("toy", toy, Toy)
     t = _times(t)
     tol = real("tol", tol, above=0, below=1)
@@ -147,6 +153,15 @@ def reference(toy: Toy, t: ArrayLike, tol: float = 1e-10) -> Reference:
         states, error, _ = _attempt(toy, times, tol / 16, rung)
     u, v = states[:, 0][place], states[:, 1][place]
     return Reference(toy, tol, Grid(u.shape[-1]).x, t, u, v, error[place], float(horizon))
+
+
+def _of_any(problem, t, tol):
+    try:
+        return solve(problem, t, tol)
+    except NoAnswer as none:
+        raise PastHorizon(
+            f"t must be <= {none.until:.6g} for this PDE at tol = {tol:g}, got {t.max():.6g}: {none.why}", none.until
+        ) from None
 
 
 def _times(t: ArrayLike) -> np.ndarray:
