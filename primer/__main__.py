@@ -14,6 +14,7 @@ from primer.claims import report as claims_report
 from primer.granular.command import add_command as add_granular
 from primer.lab import add_command as add_lab
 from primer.run import add_command as add_run
+from primer.site import add_command as add_site
 from primer.terminal import Parser, coloured
 
 _GREETING = """Welcome to primer: change one number, and watch a system of PDEs stop making sense.
@@ -60,6 +61,7 @@ def _parser():
     add_run(commands)
     add_granular(commands)
     add_lab(commands)
+    add_site(commands)
     _add_claims(commands)
     _add_help(commands)
     return parser
