@@ -15,10 +15,11 @@ from primer.problems.pde import PDE
 from primer.problems.toy import Toy
 from primer.schemes.fourier import FOURIER, interpolate, transfer
 from primer.schemes.grid import Grid
+from primer.schemes.horizon import PastHorizon
 from primer.schemes.lines import MAX_STEPS, stable_step, trace
 from primer.schemes.positive import certain, least
 from primer.schemes.runge_kutta import RK8
-from primer.schemes.solution import NoAnswer, solve
+from primer.schemes.solution import solve
 from primer.types import ArrayLike
 
 # Grid points tried in turn, each judged by the next. Multiples of 8 fill a processor's vector registers.
@@ -32,28 +33,6 @@ _TIMES = 10**5  # at which the fields of both marches fit into a gigabyte
 _PATIENCE = 1e8  # steps times points squared, some seconds: past this the first u = 0 is not asked for more exactly
 _LOOK_AHEAD = 4.0  # time up to which it is asked when u first touches 0: it swings lowest at t = 3
 _NEVER = 1.25  # u >= a - 1.1911 at eps = 0, and diffusion takes from the swing: from this a on it is not asked
-
-
-class PastHorizon(ArithmeticError):
-    """There is no answer to stand behind at the time asked for; ``horizon`` is a time at which there is one.
-
-    Where u < 0 eq. (toy-pde) is ill posed, and Hadamard's conditions (A2.1) fail, the first among them: it is not known
-    whether there is a solution at all.
-
-    >>> from primer import Toy, reference
-    >>> try:
-    ...     reference(Toy(0.5), 5.0)
-    ... except PastHorizon as refusal:
-    ...     print(f"{refusal.horizon:.4f}", reference(Toy(0.5), refusal.horizon).error < 1e-10)
-    0.8259 [ True]
-    """
-
-    def __init__(self, message: str, horizon: float) -> None:
-        super().__init__(message, horizon)
-        self.horizon = horizon
-
-    def __str__(self) -> str:
-        return self.args[0]
 
 
 @dataclass(frozen=True, eq=False)
@@ -135,7 +114,7 @@ def reference(toy: Toy | PDE, t: ArrayLike, tol: float = 1e-10) -> Any:
     True
     """
     if isinstance(toy, PDE):
-        return _of_any(toy, _times(t), real("tol", tol, above=0, below=1))
+        return solve(toy, _times(t), real("tol", tol, above=0, below=1))
     instance("toy", toy, Toy)
     t = _times(t)
     tol = real("tol", tol, above=0, below=1)
@@ -159,15 +138,6 @@ def reference(toy: Toy | PDE, t: ArrayLike, tol: float = 1e-10) -> Any:
 _WHY = (
     "u first touches 0, where the equations become ill posed: past that time it is not known that there is a solution"
 )
-
-
-def _of_any(problem, t, tol):
-    try:
-        return solve(problem, t, tol)
-    except NoAnswer as none:
-        raise PastHorizon(
-            f"t must be <= {none.until:.6g} for this PDE at tol = {tol:g}, got {t.max():.6g}: {none.why}", none.until
-        ) from None
 
 
 def _times(t: ArrayLike) -> np.ndarray:

@@ -12,6 +12,7 @@ from primer.checks import real_array
 from primer.equations.evaluate import known
 from primer.equations.slopes import linearised
 from primer.schemes.fourier import FOURIER, interpolate, transfer
+from primer.schemes.horizon import PastHorizon
 from primer.schemes.jacobian import rates
 from primer.schemes.limit import largest_step
 from primer.schemes.lines import trace
@@ -62,14 +63,6 @@ class Solution:
         )
 
 
-class NoAnswer(ArithmeticError):
-    """There is none to stand behind after ``until``, for the reason ``why``."""
-
-    def __init__(self, until: float, why: str) -> None:
-        super().__init__(until, why)
-        self.until, self.why = until, why
-
-
 def solve(problem: Any, t: np.ndarray, tol: float) -> Solution:
     """The :class:`Solution` at the times t >= 0.
 
@@ -79,7 +72,7 @@ def solve(problem: Any, t: np.ndarray, tol: float) -> Solution:
 
     Raises
     ------
-    NoAnswer      if they do not, or if 512 points are not enough
+    PastHorizon   if they do not, or if 512 points are not enough
     ValueError    if a march would take more than 300,000 steps, or the equations cannot be linearised
     """
     end = float(t.max())
@@ -94,8 +87,8 @@ def solve(problem: Any, t: np.ndarray, tol: float) -> Solution:
         ill = [g and _ill_posed(problem, f, s) for g, f, s in zip(good, fine, times, strict=True)]
         sound = good & ~(np.cumsum(ill) > 0)
         if not sound[good].all():
-            raise NoAnswer(
-                float(max(times[sound], default=0.0)), "the equations, frozen about the solution, are ill posed there"
+            raise _past(
+                times, tol, max(times[sound], default=0.0), "frozen about the solution, the equations are ill posed"
             )
         horizon = max(horizon, float(max(times[good], default=0.0)))
         if good.all():
@@ -103,7 +96,13 @@ def solve(problem: Any, t: np.ndarray, tol: float) -> Solution:
             fields = tuple(np.ascontiguousarray(fine[place, f]) for f in range(fine.shape[1]))
             return Solution(problem, tol, grid_of(problem, n).x, t, fields, error[place])
         coarse = fine
-    raise NoAnswer(horizon, f"{_POINTS[-1]} points are not enough for an error of {tol:g}")
+    raise _past(times, tol, horizon, f"{_POINTS[-1]} points are not enough")
+
+
+def _past(times, tol, until, why):
+    return PastHorizon(
+        f"t must be <= {until:.6g} for this PDE at tol = {tol:g}, got {times[-1]:g}: after that {why}", float(until)
+    )
 
 
 def _march(problem, n, times):
