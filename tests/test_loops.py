@@ -9,7 +9,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from hypothesis import assume, example, given, settings
+from hypothesis import Phase, assume, example, given, settings
 from hypothesis import strategies as st
 from test_ensemble import assert_same_run
 
@@ -24,6 +24,8 @@ from primer.schemes.passes import Form
 pytest.importorskip("llvmlite")
 scheme = sys.modules["primer.schemes.ftcs"]
 
+# Each example is compiled anew: a failure is shown as it was found, and not looked for in smaller texts.
+AS_FOUND = {"deadline": None, "phases": [Phase.explicit, Phase.reuse, Phase.generate]}
 SLOTS = [field + "_" * (m > 0) + "x" * m for field in "uv" for m in range(9)]
 LEAVES = st.sampled_from([*SLOTS, *"uvuv", "2", "0.3", "a", "b", "sin(x)", "cos(x - t)", "t", "x"])
 
@@ -68,7 +70,7 @@ def both(pde, *arguments, **options):
     return runs
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=40, **AS_FOUND)
 @given(
     right=st.tuples(*2 * [st.one_of(TERMS, TERMS, CALLS, POWERS)]),
     n=st.integers(10, 70),
@@ -88,7 +90,7 @@ def test_machine_code_gives_the_bits_of_numpy(right, n, dt, every, dtype, far, c
         assert_same_run(*both(pde, n, dt, steps * dt, every, (0.0, 50 * dt, 51 * dt), None, far, dtype))
 
 
-@settings(max_examples=20, deadline=None)
+@settings(max_examples=12, **AS_FOUND)
 @given(
     right=st.tuples(TERMS, TERMS),
     count=st.integers(2, 11),
@@ -107,7 +109,7 @@ def test_members_of_a_block_have_the_bits_of_their_single_runs(right, count, dt,
             assert_same_run(run, both(member, **options)[1])
 
 
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=15, **AS_FOUND)
 @given(
     right=st.tuples(*2 * [st.one_of(TERMS, CALLS)]),
     n=st.integers(16, 40),
@@ -184,7 +186,7 @@ or add sub mul and ret getelementptr call fadd fsub fmul fdiv fneg x inserteleme
 sitofp true false to"""
 
 
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=15, **AS_FOUND)
 @given(right=st.tuples(TERMS, CALLS))
 def test_the_code_holds_no_word_of_the_text(right):
     """Only LLVM's own: every line is one of a few forms, whatever the equation."""

@@ -13,11 +13,11 @@ from hypothesis import strategies as st
 from primer.analysis.roots import (
     DIGITS,
     ZERO,
-    _interpolated,
     _sylvester,
     common,
     derivative,
     divided,
+    interpolated,
     resultant,
     roots,
     trimmed,
@@ -193,7 +193,7 @@ def test_interpolation_finds_the_polynomial():
         for length in range(1, 9):
             p = [mp.mpc(draw.gauss(0, 1), draw.gauss(0, 1)) for _ in range(length)]
             nodes = range(-2, length - 2)
-            found = _interpolated(nodes, [mp.polyval(p[::-1], s) for s in nodes])
+            found = interpolated(nodes, [mp.polyval(p[::-1], s) for s in nodes])
             assert len(found) == length
             assert max(abs(a - b) for a, b in zip(found, p, strict=True)) < mp.mpf(10) ** -50
 

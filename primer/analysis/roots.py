@@ -194,9 +194,18 @@ def _resultant(p, q):
         sizes.append(max(map(abs, rows[0])) ** (len(q) - 1) * max(map(abs, rows[1])) ** (len(p) - 1))
     if all(abs(v) <= ZERO * s for v, s in zip(values, sizes, strict=True)):
         return []
-    found = _interpolated(nodes, values)
+    found = interpolated(nodes, values)
     least = ZERO * max(map(abs, found))
     return trimmed([a if abs(a) > least else mp.mpc(0) for a in found], 0)
+
+
+def sylvester_interpolated(p, q):
+    """As :func:`resultant`, at the digits at hand and with all of them kept; None if it is zero."""
+    degrees = [max(len(c) for c in f) - 1 for f in (p, q)]
+    nodes = range(1, (len(q) - 1) * degrees[0] + (len(p) - 1) * degrees[1] + 2)
+    values = [_sylvester(*([mp.polyval(c[::-1], s) for c in f[::-1]] for f in (p, q))) for s in nodes]
+    found = interpolated(nodes, values)
+    return trimmed(found, max(map(abs, found)) * mp.mpf(10) ** (-mp.mp.dps * 2 // 3)) or None
 
 
 def _sylvester(p, q):
@@ -215,7 +224,7 @@ def _sylvester(p, q):
     return product
 
 
-def _interpolated(nodes, values):
+def interpolated(nodes, values):
     """Coefficients of the polynomial through the values, by Newton's divided differences."""
     nodes, table = list(nodes), list(values)
     for level in range(1, len(nodes)):

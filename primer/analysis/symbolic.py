@@ -16,6 +16,7 @@ from primer.analysis.roots import DIGITS
 from primer.analysis.symbol import Symbol
 from primer.checks import shown
 from primer.equations.error import PDEError, ask
+from primer.equations.kinks import slope_at, slope_at_kink
 from primer.equations.missing import dropped, not_given
 from primer.equations.values import evaluated, substituted
 from primer.types import ArrayLike, Multiplier
@@ -54,14 +55,14 @@ def symbol(
         raise PDEError("a third space variable: there are x and y only")
     missing, entries = dict.fromkeys(dropped(system, values)), []
     with mp.workdps(DIGITS):
-        for slopes in system.slopes:
+        for r, slopes in enumerate(system.slopes):
             row: dict[str, dict] = {name: {} for name in system.unknowns}
             for (name, power), slope in sorted(slopes.items(), key=lambda item: -sum(item[0][1][1:])):
                 if order == "maximal" and is_lower(power, row[name]):
                     continue
                 unset = {s.name for s in slope.free_symbols if s.name not in values}
                 missing.update(dict.fromkeys(sorted(unset)))
-                coefficient = mp.mpf(1) if unset else evaluated(slope, values)
+                coefficient = mp.mpf(1) if unset else slope_at(system, r, (name, power), values)
                 if coefficient != 0:
                     row[name][power] = coefficient
             entries.append(tuple(row.values()))
@@ -182,8 +183,8 @@ def _matrix(text, at, order, uniform, space, time, parameters):
     parts: dict = {}
     for r, slopes in enumerate(system.slopes):
         row: dict[str, dict] = {name: {} for name in system.unknowns}
-        for (name, power), slope in sorted(slopes.items(), key=lambda item: -sum(item[0][1][1:])):
-            coefficient = _spoken(substituted(slope, values), system, {lam, *xi})
+        for name, power in sorted(slopes, key=lambda place: -sum(place[1][1:])):
+            coefficient = _spoken(_in_symbols(system, r, (name, power), values), system, {lam, *xi})
             if not (order == "maximal" and is_lower(power, row[name])) and coefficient != 0:
                 row[name][power] = coefficient
                 n, *orders = power
@@ -196,6 +197,20 @@ def _matrix(text, at, order, uniform, space, time, parameters):
     if max(parts, default=0) == 1 and size <= 3 and _regular(E):
         return (E.adjugate() * -S / E.det()).applyfunc(_tidied)  # up to 3 x 3 by formula: E.inv() simplifies for ever
     return sum((lam**n * part for n, part in parts.items()), sp.zeros(size))
+
+
+def _in_symbols(system, r, place, values):
+    """A slope, where names without a value stay."""
+    slope = system.slopes[r][place]
+    try:
+        return substituted(slope, values)
+    except PDEError:
+        if any(symbol.name not in values for symbol in slope.free_symbols):
+            raise
+        found = slope_at_kink(system, r, place, values)
+        if found is None:
+            raise
+        return sp.nsimplify(sp.sympify(found), rational=True)
 
 
 def _spoken(expression, system, waves):

@@ -13,6 +13,7 @@ from primer.analysis.directions import max_growth
 from primer.analysis.drift import BEYOND, worst_law
 from primer.analysis.each import each
 from primer.analysis.laws import NotPolynomialError, exact_symbol
+from primer.analysis.loss import loss
 from primer.analysis.poles import of_law, on_curves
 from primer.analysis.puiseux import branches
 from primer.analysis.roots import DIGITS
@@ -50,9 +51,16 @@ class Verdict:
         it varies in space or time, coefficients are frozen at a point; growth there is not instability of the state
     reason : str
         in words
+    loss : Fraction
+        0 where well-posedness is strong, else the power of |xi| by which bounded data may grow in a time of order one:
+        then it is weak, and lower-order terms can make it ill-posed. Every unknown counts alike, its j-th time
+        derivative divided by |xi|^(jq), q the power of the fastest branch; unknowns without a time derivative are no
+        data. inf if ill-posed; nan if undecided, or where the reason says that it was not decided
 
     The definition of linear ill-posedness is that of section A2.1.
 
+    >>> print(verdict("u_t = u_x + v_x; v_t = v_x").loss)  # exp(t A) grows like |xi| t, though no eigenvalue does
+    1
     >>> found = verdict("u_t = -u_xx - u_xxxx")
     >>> print(found.kind, found.unstable, found.bound)  # an instability, but not ill-posedness
     well-posed True 0.25
@@ -65,6 +73,7 @@ class Verdict:
     bound: float
     unstable: bool
     reason: str
+    loss: Fraction | float = math.nan
 
     @property
     def grows(self) -> bool:
@@ -137,11 +146,11 @@ def _judged(symbol):
         reason = (
             f"Growth is unbounded at every |xi|, near the direction{where[17:]}, where a time derivative drops out."
         )
-        return Verdict(Kind.ILL_POSED, math.inf, math.inf, direction, math.inf, True, reason)
+        return Verdict(Kind.ILL_POSED, math.inf, math.inf, direction, math.inf, True, reason, math.inf)
     if not law.is_bounded:
         where += f", approached like |xi|^-{drift}" if drift else ""
         reason = f"{law} as |xi| -> infinity{where}: the shorter the wave the faster it grows, without bound{doubt}."
-        return Verdict(Kind.ILL_POSED, law.exponent, law.coefficient, direction, math.inf, True, reason)
+        return Verdict(Kind.ILL_POSED, law.exponent, law.coefficient, direction, math.inf, True, reason, math.inf)
     if doubt:
         return _undecided(f"the Newton polygon gives {law}{doubt}")
     bound, k = _supremum(symbol, law, real)
@@ -149,13 +158,24 @@ def _judged(symbol):
     if math.isinf(bound):
         at = f"near |xi| = {k:.4g}, where a time derivative drops out" if k else "as |xi| -> 0"
         return _undecided(f"growth is unbounded {at} ({short})")
+    lost = loss(symbol)
     if bound > 0:
         place = f"near |xi| = {k:.4g}" if math.isfinite(k) else "as |xi| -> infinity"
         what = "an instability, but not ill-posedness" if symbol.uniform else "no ill-posedness"
         reason = f"Growth is bounded by {bound:.6g}, reached {place} ({short}): {what}."
     else:
-        reason = f"No perturbation grows: Re lambda <= {bound:.6g} ({short})."
-    return Verdict(Kind.WELL_POSED, law.exponent, law.coefficient, direction, bound, bound > 0, reason)
+        grows = "No exponential grows" if lost else "No perturbation grows"
+        reason = f"{grows}: Re lambda <= {bound:.6g} ({short})."
+    if lost > 0:
+        reason += f" Only weakly well-posed: bounded data may grow like {_power(lost)} in a time of order one, and "
+        reason += "lower-order terms can make it ill-posed."
+    if math.isnan(lost):
+        reason += " Whether it is weakly or strongly well-posed was not decided."
+    return Verdict(Kind.WELL_POSED, law.exponent, law.coefficient, direction, bound, bound > 0, reason, lost)
+
+
+def _power(q):
+    return "|xi|" if q == 1 else f"|xi|^{q}" if q.denominator == 1 else f"|xi|^({q})"
 
 
 def _along_line(symbol, real):

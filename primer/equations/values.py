@@ -15,6 +15,7 @@ from primer.equations.tree import split_name
 from primer.equations.variables import canonical
 
 BITS = 100_000  # the largest exact power, in bits: 3^(10^9) would take for ever
+LARGEST_SLOPE = 1e100
 LARGEST = 1e6  # the largest argument of a function: the exponential of this has half a million digits before its point
 
 
@@ -59,7 +60,7 @@ def _inside(system, key):
     if split_name(name)[0] in known:
         return name
     variables = system.source.variables
-    if not variables.declared:  # a place, or a derivative across, that does not matter
+    if not variables.declared and name not in ("x", "y", "z"):  # a place, or a derivative, that does not matter
         base, letters = split_name(canonical(key))
         if base in ("x", "y", "z") and not letters:
             return base
@@ -75,6 +76,7 @@ def _inside(system, key):
 
 def _exact(name, value: Any):
     """A number as a sympy one; a float stands for its shortest decimal, so that 0.1 is 1/10."""
+    value = value.item() if isinstance(value, np.ndarray) and value.ndim == 0 else value
     if isinstance(value, (bool, np.bool_)) or not isinstance(value, (numbers.Number, np.number, sp.Expr)):
         raise TypeError(f"{name} must be a number, got {shown(value)} ({type(value).__name__})")
     if isinstance(value, sp.Expr):
@@ -151,7 +153,7 @@ def evaluated(expression, values):
         raise PDEError(
             f"the base state makes {_short(expression)} divide by zero: it cannot be linearised there"
         ) from None
-    if not mp.isfinite(number) or abs(number) > 1e100:
+    if not mp.isfinite(number) or abs(number) > LARGEST_SLOPE:
         raise PDEError(f"the base state makes {_short(expression)} {mp.nstr(number, 3)}: not a number to work with")
     return number
 

@@ -17,7 +17,7 @@ from primer.schemes.block import of_text
 from primer.schemes.fourier import Fourier
 from primer.schemes.grid import CENTRAL, Grid, Stencil
 from primer.schemes.lines_block import compilable, marched
-from primer.schemes.marching import a_problem, grid_of, orders_of, slope_of
+from primer.schemes.marching import a_problem, fields_of, grid_of, orders_of, slope_of
 from primer.schemes.runge_kutta import RK4, RungeKutta
 from primer.types import Problem
 
@@ -186,5 +186,5 @@ def _interpreted(problem, x, y, space, time, dt, begin, counts, limit, states, d
 def _start(problem, n):
     """(x, state at t = 0, size at which a march is given up)."""
     x = grid_of(problem, n).x
-    y = np.array(problem.initial(x), dtype=complex if getattr(problem, "is_complex", False) else None)
+    y = np.array(fields_of(problem, "initial", x), dtype=complex if getattr(problem, "is_complex", False) else None)
     return x, y, _BLOWN_UP * (1 + float(np.abs(y).max()))

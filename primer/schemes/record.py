@@ -9,7 +9,7 @@ import numpy as np
 from primer.arithmetic import Arithmetic, arithmetic
 from primer.checks import MAX_BYTES, integer, real, sequence, shown
 from primer.schemes.grid import Grid
-from primer.schemes.marching import a_problem, grid_of
+from primer.schemes.marching import a_problem, fields_of, grid_of
 from primer.schemes.run import Run, Seed, Stop
 
 _SMALLEST = float(np.finfo(np.float32).tiny)  # a smaller step would be 0 in single precision
@@ -56,11 +56,11 @@ class Plan:
         self.refuse_if_large(len(problem.fields))
         h, x = self.numbers.grid(self.grid.n, period)
         with np.errstate(over="ignore", invalid="ignore"):  # data beyond the largest number are a blow-up at t = 0
-            state = [numbers.array(f) for f in problem.initial(x)]
+            state = [numbers.array(f) for f in fields_of(problem, "initial", x)]
             if self.seed:
                 angle = x if period == 2 * math.pi else x * (2 * self.numbers.pi / (h * self.grid.n))
                 state[problem.fields.index(self.seed.field)] += numbers.array(self.seed(angle))
-            log = Log(self, numbers.array(problem.steady(x)))
+            log = Log(self, numbers.array(fields_of(problem, "steady", x)))
             log.watch(0, np.array(state))
         return h, x, np.array(state), log
 
