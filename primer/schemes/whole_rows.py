@@ -40,7 +40,8 @@ class Numbers:
 
     def _at(self, t):
         terms = self.problem.evolution.clocks
-        return [value(term, self.known.scalars, self.problem.parameters, t=t) for term in terms]
+        with np.errstate(all="ignore"):
+            return [value(term, self.known.scalars, self.problem.parameters, t=t) for term in terms]
 
     def form(self, fields):
         """What is complex here, where the fields are or are not."""
