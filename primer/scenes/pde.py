@@ -4,6 +4,7 @@ import math
 import re
 from dataclasses import dataclass
 from functools import lru_cache
+from typing import Any
 
 import numpy as np
 
@@ -49,14 +50,18 @@ class PDEAnswer:
     verdict: str
 
 
-def pde(pde: str = TOY, at: str = "u=-0.5 v_xx=0.3 eps=0.01", order: str = "full", n: int = 64) -> PDEAnswer:
+def pde(
+    pde: str = TOY, at: str = "u=-0.5 v_xx=0.3 eps=0.01", order: str = "full", n: int = 64, uniform: bool = False
+) -> PDEAnswer:
     """Is a PDE linearly ill-posed, frozen at a base state, and does a grid of spacing 2 pi/n show it?
 
     Parameters
     ----------
     pde      equations as :func:`primer.linearise` reads them, such as "u_t = -u_xx", parted by ";"
-    at       base-state values and parameters parted by blanks: "u=-0.5 eps=0.01"
+    at       base-state values and parameters parted by blanks: "u=-0.5 eps=0.01"; a function f(u) of the equations as
+             a text without blanks, "f=u^3-u"; and what the variables are called, "space=r", "space=x,z", "time=tau"
     order    "full", or "maximal": the highest derivatives alone
+    uniform  whether all derivatives of the base state are 0
     n        4 to 1024; derivatives above the second are products of the central differences of first and second order
 
     Raises
@@ -69,9 +74,11 @@ def pde(pde: str = TOY, at: str = "u=-0.5 v_xx=0.3 eps=0.01", order: str = "full
             raise TypeError(f"{name} must be a text, got {shown(value)}")
     if order not in ("full", "maximal"):
         raise ValueError(f"order must be full or maximal, got {shown(order)}")
+    if not isinstance(uniform, bool):
+        raise TypeError(f"uniform must be True or False, got {shown(uniform)}")
     n = integer("n", n, least=4, most=MAX_N)
     try:
-        known = _known(pde, at, order)
+        known = _known(pde, at, order, uniform)
     except PDEError as error:
         problem = _one_line(error)
         if "has a value but does not occur" in problem:
@@ -95,13 +102,20 @@ class _Known:
 
 
 @lru_cache(maxsize=16)
-def _known(pde, at, order):
-    values = read_values(at)
-    matrix = linearise(pde, at=values, order=order)
+def _known(pde, at, order, uniform):
+    found = read_values(at)
+    values = {name: value for name, value in found.items() if not isinstance(value, str)}
+    options = {name: value for name, value in found.items() if name not in values} | {"uniform": uniform}
+    matrix = linearise(pde, at=values, order=order, **options)
     missing = sorted(s.name for s in matrix.free_symbols if s.name not in _WAVES)
     if missing:
-        raise ValueError(f"at must also give a value to {', '.join(missing)}, as in {missing[0]}=1, got {shown(at)}")
-    exact = symbol(pde, at=values, order=order)
+        loose = linearise(pde, at=values, order=order, **options | {"uniform": True})
+        derived = len(loose.free_symbols) < len(matrix.free_symbols) and not uniform
+        first = "uniform must be yes if all derivatives of the base state are 0, or " if derived else ""
+        raise ValueError(
+            f"{first}at must also give a value to {', '.join(missing)}, as in {missing[0]}=1, got {shown(at)}"
+        )
+    exact = symbol(pde, at=values, order=order, **options)
     found = verdict(exact)
     has_lambda = any(s.name == "lambda" for s in matrix.free_symbols)
     texts = tuple(tuple(_written(entry) for entry in row) for row in matrix.tolist())
@@ -109,7 +123,7 @@ def _known(pde, at, order):
 
 
 def read_values(text):
-    """Name -> number from "u=-0.5 eps=0.01".
+    """Name -> number, or text, from "u=-0.5 eps=0.01 f=u^2".
 
     Raises
     ------
@@ -119,9 +133,9 @@ def read_values(text):
     for part in re.sub(r"\s*=\s*", "=", text).split():
         name, equals, value = part.partition("=")
         try:
-            number = float(value) if equals and name else None
+            number: Any = float(value) if equals and name else None
         except ValueError:
-            number = None
+            number = value if re.fullmatch(r"[^=]*[^\W\d_][^=]*", value) else None  # a function, or a variable
         if number is None or name in values:
             raise ValueError(f"at must be NAME=NUMBER parted by blanks, each name once, got {shown(part)}")
         values[name] = number
@@ -158,7 +172,7 @@ def _written(entry):
 
 def _one_line(error):
     """The message, with the place in the text in words in place of a caret."""
-    problem, *place = str(error).split("\n")
+    problem, *place = error.said("explorer").split("\n")
     if len(place) != 2:
         return problem
     rest = place[0][place[1].index("^") :].strip()

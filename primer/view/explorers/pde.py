@@ -11,6 +11,7 @@ from primer.analysis.puiseux import Law
 from primer.scenes.pde import TOY, XI, PDEAnswer, pde
 from primer.view.explorers.controls import Choice, Line, Number
 from primer.view.explorers.explorer import Explorer
+from primer.view.explorers.switch import Switch
 from primer.view.growth import draw_growth, shade_growing
 from primer.view.style import STEADY, V, legend_below
 
@@ -69,20 +70,26 @@ class PDEExplorer(Explorer):
     controls = (
         Line("pde", "equations", TOY, rows=2),
         Line("at", "base state", "u=-0.5 v_xx=0.3 eps=0.01"),
+        Switch("uniform", "uniform base state"),
         Choice("order", "terms kept", "full", ("full", "maximal")),
         Number("n", "grid points N", 64, 8, 512, 8),
     )
     presets: ClassVar = {
         "toy, u < 0": "",
         "toy, u > 0": "at=u=0.5 v_xx=0.3 eps=0.01",
-        "heat": "pde=u_t = u_xx,at=",
-        "backward heat": "pde=u_t = -u_xx,at=",
-        "lower-order terms matter": "pde=u_t = u_xxx - u_xx,at=",
-        "the same without them": "pde=u_t = u_xxx - u_xx,at=,order=maximal",
-        "waves": "pde=u_tt = u_xx,at=",
-        "Laplace's equation, marched": "pde=u_tt = -u_xx,at=",
-        "Kuramoto-Sivashinsky": "pde=u_t = -u*u_x - u_xx - u_xxxx,at=u=0 u_x=0",
-        "Schrödinger": "pde=a_t = -b_xx; b_t = a_xx,at=",
-        "ill posed across": "pde=u_t = u_xx - u_yy,at=",
+        "heat": "pde=u_t = u_xx",
+        "backward heat": "pde=u_t = -u_xx",
+        "lower-order terms matter": "pde=u_t = u_xxx - u_xx",
+        "the same without them": "pde=u_t = u_xxx - u_xx,order=maximal",
+        "waves": "pde=u_tt = u_xx",
+        "Laplace's equation, marched": "pde=u_tt = -u_xx",
+        "Kuramoto-Sivashinsky": "pde=u_t = -u u_x - u_xx - u_xxxx,at=u=0,uniform=yes",
+        "Schrödinger": "pde=a_t = -b_xx; b_t = a_xx",
+        "ill posed across": "pde=u_t = u_xx - u_yy",
         "Stokes": "pde=u_t = -p_x + nu*(u_xx + u_yy); v_t = -p_y + nu*(v_xx + v_yy); u_x + v_y = 0,at=nu=0.01",
     }
+
+    @staticmethod
+    def _completed(values):
+        """Another PDE starts clean, not at the base state of the toy system."""
+        return {"at": "", **values} if values.get("pde", TOY) != TOY else values
