@@ -16,7 +16,7 @@ from primer.study.maps import BlowUpMap, map_step
 from primer.study.stability import OVERSHOOT
 from primer.study.table import Table
 
-sweep = sys.modules["primer.study.maps"]
+sweep, sweeping = sys.modules["primer.study.maps"], sys.modules["primer.study.sweep"]
 A, N = [0.3, 0.6, 1.5], [16, 80, 120]
 
 
@@ -218,10 +218,10 @@ def test_a_worker_that_is_interrupted_ends_the_sweep_and_what_waits_is_cancelled
         executor.futures[12].set_exception(KeyboardInterrupt()) if not executor.futures[12].done() else None
         interrupted = Future()
         interrupted.set_exception(KeyboardInterrupt())
-        waiting[interrupted] = ([0.5], 12)
+        waiting[interrupted] = 2
         yield interrupted
 
-    monkeypatch.setattr(sweep, "as_completed", as_completed)
+    monkeypatch.setattr(sweeping, "as_completed", as_completed)
     found = blow_up_map([0.5], [8, 10, 12], executor=executor, **QUICK)
     assert found.done.tolist() == [True, False, False]
     assert executor.futures[10].cancelled()
@@ -254,7 +254,7 @@ def test_the_bar_counts_cells_and_hides_off_a_terminal(monkeypatch, tmp_path):
     assert [bar.says for bar in bars] == [[], [], ["interrupted"]]
 
 
-def test_a_column_marches_what_blows_up_once_more_from_the_seed_as_far_as_the_last(monkeypatch):
+def test_a_column_marches_what_blows_up_once_more_from_the_seed(monkeypatch):
     asked = []
 
     def ensemble(toys, n, dt, t_end, record_every, seed):
@@ -265,22 +265,22 @@ def test_a_column_marches_what_blows_up_once_more_from_the_seed_as_far_as_the_la
         sooner = [times[toy.a] - (seed is not None) for toy in toys]
         return [SimpleNamespace(stop=stop, t_stop=t) for stop, t in zip(stops, sooner, strict=True)]
 
-    monkeypatch.setattr(sweep, "ftcs_ensemble", ensemble)
+    monkeypatch.setattr(sweeping, "ftcs_ensemble", ensemble)
     found = sweep._column([0.1, 0.3, 0.2], 15, 0.02, 1e-3, 50.0, 1e-9)
     assert found == {(15, 1e-3, 0.1): (3, 2), (15, 1e-3, 0.3): (math.inf, math.inf), (15, 1e-3, 0.2): (7, 6)}
     toys = [Toy(a, 0.02) for a in (0.1, 0.3, 0.2)]
-    assert asked == [(toys, 15, 1e-3, 50.0, None), ([toys[0], toys[2]], 15, 1e-3, 7.0, Seed(6, 1e-9))]
+    assert asked == [(toys, 15, 1e-3, 50.0, None), ([toys[0], toys[2]], 15, 1e-3, 50.0, Seed(6, 1e-9))]
     asked.clear()
     assert sweep._column([0.3], 16, 0.02, 1e-3, 50.0, 1e-9) == {(16, 1e-3, 0.3): (math.inf, math.inf)}
-    assert asked[1:] == [([], 16, 1e-3, 0.0, Seed(7, 1e-9))]
+    assert asked[1:] == []
     run = SimpleNamespace(stop=Stop.INTERRUPTED)
-    monkeypatch.setattr(sweep, "ftcs_ensemble", lambda *_, **__: [run])
+    monkeypatch.setattr(sweeping, "ftcs_ensemble", lambda *_, **__: [run])
     with pytest.raises(KeyboardInterrupt):
         sweep._column([0.1], 16, 0.02, 1e-3, 50.0, 1e-9)
 
 
 def test_what_is_too_large_is_refused_before_anything_is_marched(monkeypatch):
-    monkeypatch.setattr(sweep, "_march", lambda *_: 1 / 0)
+    monkeypatch.setattr(sweep, "sweep", lambda *_, **__: 1 / 0)
     for n, members in ((10**7, 1), (10**6, 7)):  # 12 numbers for each of two fields: 16 bytes for each
         with pytest.raises(ValueError, match=rf"2 GiB, got {members} with 1 records, 0 snapshots and n = {n}$"):
             blow_up_map(np.arange(members) / 10, [n], t_end=0.0, progress=False)

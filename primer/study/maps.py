@@ -3,12 +3,9 @@
 from __future__ import annotations
 
 import math
-import sys
-import warnings
-from collections.abc import Iterable, Mapping, Sequence
-from concurrent.futures import BrokenExecutor, Executor, Future, as_completed
+from collections.abc import Iterable, Mapping, Sequence, Sized
+from concurrent.futures import Executor
 from dataclasses import dataclass
-from multiprocessing import current_process
 from os import PathLike
 from typing import Any
 
@@ -17,12 +14,11 @@ import numpy as np
 from primer.checks import real, real_array, sequence, shown
 from primer.problems.pde import PDE
 from primer.problems.toy import Toy
-from primer.schemes.ensemble import ftcs_ensemble
 from primer.schemes.grid import grids
 from primer.schemes.record import plan
-from primer.schemes.run import Seed, Stop
 from primer.study.parameter_map import parameter_map
 from primer.study.stability import OVERSHOOT, stable_dt
+from primer.study.sweep import Job, an_executor, blow_up_times, overtaken, sweep, without_repeats
 from primer.study.table import Table
 from primer.types import ArrayLike
 
@@ -63,7 +59,7 @@ class BlowUpMap:
         The seed is a little above round-off: growth from round-off is overtaken by it, and the blow-up comes sooner. A
         smooth solution that runs away by itself has long left both behind.
         """
-        return np.isfinite(self.t_blow_up) & (self.t_seeded < 0.98 * self.t_blow_up)
+        return overtaken(self.t_blow_up, self.t_seeded)
 
 
 def blow_up_map(
@@ -96,7 +92,7 @@ def blow_up_map(
     progress              whether to show a progress bar, on a terminal
     vary, n               with a ``PDE`` in the place of a_values: the values of any two of its parameters, such as
                           ``vary={"a": [0.5, 1.5], "eps": [0.01, 0.1]}``, one of which may be "n", the grid; and the
-                          grid otherwise (:func:`primer.study.parameter_map.parameter_map`, on this machine's cores)
+                          grid otherwise (:func:`primer.study.parameter_map.parameter_map`)
 
     Returns
     -------
@@ -116,25 +112,26 @@ def blow_up_map(
            [False, False]])
     """
     if isinstance(a_values, PDE):
-        return parameter_map(a_values, vary or {}, n, t_end, dt, seed)
+        if not isinstance(n_values, Sized) or len(n_values) or eps != 0.01:
+            raise ValueError("n_values and eps go with base states of the toy system; a PDE takes vary and n")
+        return parameter_map(a_values, vary or {}, n, t_end, dt, seed, table, executor, progress)
     if vary is not None:
         raise ValueError(f"vary goes with a PDE, got it with {shown(a_values)}")
-    a = _without_repeats("a_values", [real("a_values", x) for x in real_array("a_values", a_values).ravel().tolist()])
-    ns = _without_repeats("n_values", grids("n_values", _listed(n_values)))
+    a = without_repeats("a_values", [real("a_values", x) for x in real_array("a_values", a_values).ravel().tolist()])
+    ns = without_repeats("n_values", list(grids("n_values", _listed(n_values))))
     eps, t_end, dt = Toy(0, eps).eps, real("t_end", t_end, least=0), real("dt", dt, above=0)
     seed = real("seed", seed, above=0)
-    if executor is not None and not isinstance(executor, Executor):
-        raise TypeError(f"executor must be a concurrent.futures.Executor or None, got {shown(executor)}")
+    an_executor(executor)
     for k in ns:  # all is known to fit before anything is marched
         plan(k, dt, t_end, 10**9, (), None, 1e3, np.float64, None).refuse_if_large(fields=2, members=len(a))
     steps = [map_step(a, k, eps, dt) for k in ns]
     store = Table(table, {"eps": eps, "t_end": t_end, "seed": seed}, ("n", "dt", "a"), ("t_blow_up", "t_seeded"))
-    columns = []
+    jobs = []
     for k, step in zip(ns, steps, strict=True):
         missing = [x for x in a if (k, step, x) not in store.rows]
         if missing:
-            columns.append((missing, k, eps, step, t_end, seed))
-    _march(columns, executor, store, progress)
+            jobs.append(Job(f"n = {k}", _column, (missing, k, eps, step, t_end, seed)))
+    sweep(jobs, executor, store, progress, stacklevel=2)
     nothing = math.nan, math.nan
     cells = np.array([[store.rows.get((k, step, x), nothing) for k, step in zip(ns, steps, strict=True)] for x in a])
     cells = cells.reshape(len(a), len(ns), 2)
@@ -154,67 +151,7 @@ def _listed(values):
     return sequence("n_values", values.ravel().tolist() if isinstance(values, np.ndarray) else values, "grids")
 
 
-def _without_repeats(name, values):
-    if len(set(values)) < len(values):
-        raise ValueError(f"{name} must be without repeats, got {shown(values)}")
-    return values
-
-
-def _march(columns, executor, store, progress):
-    from tqdm import tqdm
-
-    if executor is not None and getattr(current_process(), "_inheriting", False):
-        sys.exit(1)  # a spawned worker that reads a script without a main guard: its parent says so, once
-    with tqdm(total=sum(len(column[0]) for column in columns), unit="cell", disable=None if progress else True) as bar:
-
-        def keep(rows):
-            store.add(rows)
-            bar.update(len(rows))
-
-        waiting: dict[Future, tuple] = {}
-        lost: dict[int, BaseException] = {}
-        try:
-            if executor is None:  # each column takes all cores
-                for column in columns:
-                    keep(_column(*column))
-            else:
-                for column in columns:
-                    try:
-                        waiting[executor.submit(_column, *column)] = column
-                    except BrokenExecutor as broken:  # a worker has died already
-                        lost[column[1]] = broken
-                for done in as_completed(waiting):
-                    _, n, *_ = waiting[done]
-                    if (error := done.exception()) is None or isinstance(error, KeyboardInterrupt):
-                        keep(done.result())
-                    else:  # one grid's worker died, or ran out of memory: the others are worth keeping
-                        lost[n] = error
-        except KeyboardInterrupt:
-            bar.set_postfix_str("interrupted")
-        finally:
-            for future in waiting:
-                future.cancel()
-    if lost and len(lost) == len(columns) and all(isinstance(error, BrokenExecutor) for error in lost.values()):
-        raise RuntimeError(
-            "no worker lived to march a grid. In a script, what uses a process pool must stand under "
-            'if __name__ == "__main__":, since spawned workers read the script again'
-        )
-    if lost:
-        why = "; ".join(f"n = {n} ({type(error).__name__}: {error})" for n, error in sorted(lost.items()))
-        warnings.warn(f"not marched, and not a number in the map: {why}", RuntimeWarning, stacklevel=3)
-
-
 def _column(a, n, eps, dt, t_end, seed):
     """{(n, dt, a): (t_blow_up, t_seeded)} of all base states on one grid; module-level, for other processes."""
-    plain = _times(a, n, eps, dt, t_end, None)
-    lost = [x for x, t in zip(a, plain, strict=True) if t < math.inf]
-    last = max((t for t in plain if t < math.inf), default=0.0)
-    seeded = dict(zip(lost, _times(lost, n, eps, dt, last, Seed(n // 2 - 1, seed)), strict=True))
-    return {(n, dt, x): (t, seeded.get(x, math.inf)) for x, t in zip(a, plain, strict=True)}
-
-
-def _times(a, n, eps, dt, t_end, seed):
-    runs = ftcs_ensemble([Toy(x, eps) for x in a], n, dt, t_end, record_every=10**9, seed=seed)
-    if any(run.stop is Stop.INTERRUPTED for run in runs):
-        raise KeyboardInterrupt
-    return [run.t_stop if run.stop is Stop.BLEW_UP else math.inf for run in runs]
+    times = blow_up_times([Toy(x, eps) for x in a], n, dt, t_end, seed)
+    return {(n, dt, x): pair for x, pair in zip(a, times, strict=True)}
