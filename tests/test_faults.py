@@ -321,10 +321,10 @@ def test_a_worker_that_dies_costs_its_own_grid(whole, column, tmp_path, monkeypa
 def test_a_figure_whose_worker_dies_is_named_and_the_rest_made(tmp_path, monkeypatch, capsys):
     make = regenerate._make
 
-    def dies(name, out, formats):
+    def dies(name, *rest):
         if name == "hadamard_modes":
             raise MemoryError("no memory for this one")
-        return make(name, out, formats)
+        return make(name, *rest)
 
     monkeypatch.setattr(regenerate, "_make", dies)
     monkeypatch.setattr(regenerate, "ProcessPoolExecutor", _inline)

@@ -2,6 +2,7 @@
 
 import math
 import sys
+from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -9,11 +10,25 @@ import numpy as np
 import pytest
 from scipy import integrate
 
-from primer import CENTRAL, CENTRAL_4, CENTRAL_6, FOURIER, RK4, RK8, Toy, ftcs, march_lines, reference
+from primer import (
+    CENTRAL,
+    CENTRAL_4,
+    CENTRAL_6,
+    FOURIER,
+    PDE,
+    RK4,
+    RK8,
+    BackwardHeat,
+    PastHorizon,
+    Toy,
+    ftcs,
+    march_lines,
+    reference,
+)
 from primer.schemes.grid import Grid
 from primer.schemes.lines import stable_step
 from primer.study import contestants as contestants_module
-from primer.study import cost, measured
+from primer.study import cost, measured, py_pde, truth
 from primer.study.contestants import Method, contestants
 from primer.study.cost import Point, WorkPrecision, pareto, work_precision
 
@@ -105,14 +120,13 @@ def test_py_pde_is_given_the_steps_of_the_papers_scheme(monkeypatch):
     def field(grid, value):
         return value
 
-    field.from_expression = field
     pde = SimpleNamespace(CartesianGrid=grid, ScalarField=field, PDE=PDE, FieldCollection=list)
     monkeypatch.setitem(sys.modules, "pde", pde)
     x, fields, dt = contestants_module._py_pde(Toy(1.5, 0.02), 8, 0.5)
     _, _, paper = contestants_module._ftcs(Toy(1.5, 0.02), 8, 0.5)
     assert (dt, asked["dt"], asked["t_range"]) == (paper, paper, 0.5)
     assert paper <= (math.pi / 8) ** 2
-    assert asked["v"] == "0.02 * u * laplace(v) + d_dx(u) - v - sin(x)"
+    assert asked["v"] == "(((((0.02 * u) * laplace(v)) + d_dx(u)) - v) - sin(x))"
     assert x.shape == (8,)
     assert fields.shape == (2, 8)
 
@@ -194,15 +208,15 @@ def test_an_error_is_the_largest_of_u_and_v_against_a_reference_far_better(monke
         fields[knob % 2, 3] += 0.25 * (-1) ** knob
         return x, fields, 1 / knob
 
-    monkeypatch.setattr(cost, "reference", watched)
+    monkeypatch.setattr(truth, "reference", watched)
     found = work_precision(None, 0.5, [Method("off", march, (8, 11))], repeats=1)
     assert [(p.n, p.dt, p.error) for p in found.points] == [
         (8, 1 / 8, pytest.approx(0.25)),
         (11, 1 / 11, pytest.approx(0.25)),
     ]
     assert (found.toy, found.t_end) == (Toy(1.5), 0.5)
-    assert work_precision(Toy(-3.0), 0.01, [Method("off", march, (8,))], repeats=1).toy == Toy(-3.0)
-    assert asked == [((Toy(1.5), 0.5), {"tol": 1e-13 * 3.5}), ((Toy(-3.0), 0.01), {"tol": 1e-13 * 5})]
+    assert work_precision(Toy(-3.0, 0), 0.01, [Method("off", march, (8,))], repeats=1).toy == Toy(-3.0, 0)
+    assert asked == [((Toy(1.5), 0.5), {"tol": 1e-13 * 3.5}), ((Toy(-3.0, 0), 0.01), {"tol": 1e-13 * 5})]
 
 
 def test_lost_runs_have_an_infinite_error():
@@ -260,7 +274,10 @@ def test_cost_is_of_all_contestants_but_py_pde(monkeypatch):
     monkeypatch.setattr(cost, "contestants", lambda *of, **options: asked.append((of, options)) or [])
     assert cost.cost_against_n() == ()
     assert work_precision(Toy(1.5), 0.1).points == ()
-    assert asked == [((), {"with_py_pde": False}), ((), {})]
+    assert asked == [
+        ((), {"with_py_pde": False, "problem": Toy(1.5), "t_end": 5.0}),
+        ((), {"problem": Toy(1.5), "t_end": 0.1}),
+    ]
 
 
 def test_without_a_toy_it_is_that_of_the_well_posed_example():
@@ -283,14 +300,144 @@ def test_without_a_toy_it_is_that_of_the_well_posed_example():
         (lambda: work_precision(repeats=10_001), "repeats must be an integer >= 1 and <= 10000, got 10001"),
         (lambda: cost.cost_against_n(t_end=-0.5), "t_end must be a finite number > 0, got -0.5"),
         (lambda: cost.cost_against_n(seconds=-0.5), "seconds must be a finite number > 0, got -0.5"),
-        (lambda: cost.cost_against_n(3), "toy must be a Toy, got 3"),
-        (lambda: work_precision(3), "toy must be a Toy, got 3"),
+        (
+            lambda: cost.cost_against_n(3),
+            "toy must be a PDE, a Toy, a BackwardHeat or an object with their methods, got 3",
+        ),
+        (lambda: work_precision(3), "toy must be a PDE, a Toy, a BackwardHeat or an object with their methods, got 3"),
     ],
 )
 def test_bad_input_gets_the_whole_sentence(call, sentence):
     with pytest.raises((TypeError, ValueError)) as caught:
         call()
     assert str(caught.value) == sentence
+
+
+QUICK = ("FTCS", "central 2 + RK4", "central 4 + RK8", "central 6 + RK8")
+
+
+def orders_of(problem, t_end, **options):
+    """{method: order of accuracy between 50 and 100 points}."""
+    methods = [
+        Method(m.name, m.march, (50, 100), stages=m.stages)
+        for m in contestants(False, problem, t_end)
+        if m.name in QUICK
+    ]
+    study = work_precision(problem, t_end, methods, patience=30, repeats=1, **options)
+    assert study.methods == QUICK
+    return {m: math.log2(study.of(m)[0].error / study.of(m)[1].error) for m in study.methods}
+
+
+EXPECTED = {"FTCS": 2, "central 2 + RK4": 2, "central 4 + RK8": 4, "central 6 + RK8": 6}
+TRAVELS = PDE("u_t = -c*u_x", {"u": "exp(cos(pi*x))"}, period=2.0, c=0.5)
+TURNS = PDE("u_t = i*k*u_xx", {"u": "exp(i*x)"}, k=0.5)
+SWINGS = PDE("w_tt = w_xx - w", {"w": "cos(x)", "w_t": "0"})
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("problem", "t_end", "exact"),
+    [
+        (PDE("u_t = k*u_xx", {"u": "sin(x)"}, k=0.7), 1.0, lambda x, t: np.exp(-0.7 * t) * np.sin(x)),
+        (TRAVELS, 0.5, lambda x, t: [np.exp(np.cos(np.pi * (x - t / 2)))]),
+        (TURNS, 1.0, lambda x, t: np.exp(1j * (x - t / 2))),
+        (SWINGS, 1.0, lambda x, t: (w := 2**0.5) and [np.cos(x) * np.cos(w * t), -w * np.cos(x) * np.sin(w * t)]),
+        (PDE("u_t = -u*u_x + nu*u_xx", {"u": "1 + sin(x)"}, nu=0.5), 0.5, None),
+        (PDE("u_t = -u_xxxx - u_xx + cos(t)*sin(x)", {"u": "0"}), 0.5, lambda x, t: np.sin(t) * np.sin(x)),
+    ],
+    ids=["heat", "advection", "Schroedinger", "Klein-Gordon", "Burgers", "forced, of fourth order"],
+)
+def test_any_equation_has_the_orders_of_its_methods(problem, t_end, exact):
+    """Against solutions in closed form and, of Burgers' equation, the reference."""
+    assert orders_of(problem, t_end, exact=exact) == pytest.approx(EXPECTED, abs=0.25)
+
+
+@pytest.mark.slow
+def test_every_contestant_marches_any_equation():
+    """All of them to the end, the reference and scipy too, complex fields without LSODA, which has none."""
+    for problem, t_end, number in ((TRAVELS, 0.5, 13), (TURNS, 0.5, 12), (SWINGS, 0.5, 13)):
+        methods = [
+            replace(m, knobs=(16, 32) if "Fourier +" in m.name else m.knobs[:2])
+            for m in contestants(False, problem, t_end)
+        ]
+        study = work_precision(problem, t_end, methods, patience=30, repeats=1)
+        assert len(study.methods) == number
+        assert 0 < study.doubt < 1e-10
+        for method in study.methods:
+            assert len(study.of(method)) == 2
+            assert study.of(method)[-1].error < 0.1
+        assert study.of("Fourier + RK8")[-1].error < 1e-7
+        assert study.of("reference")[0].error < 1e-6
+
+
+def test_backward_heat_is_solved_in_closed_form_and_its_runs_are_lost_on_fine_grids():
+    methods = [m for m in contestants(False, BackwardHeat(), 1.0) if m.name in ("FTCS", "central 2 + RK4")]
+    assert [m.name for m in contestants(False, BackwardHeat())].count("reference") == 0
+    study = work_precision(BackwardHeat(), 0.5, [replace(m, knobs=(8, 100, 200)) for m in methods], repeats=1)
+    for method in ("FTCS", "central 2 + RK4"):
+        coarse, *fine = study.of(method)
+        growth = (8 / math.pi) ** 2 * math.sin(math.pi / 8) ** 2  # of sin x by central differences on 8 points
+        assert coarse.error == pytest.approx(math.exp(0.5) - math.exp(0.5 * growth), rel=0.5)
+        assert fine[-1].error > 1e3
+
+
+def test_where_there_is_no_truth_that_is_said_in_one_sentence():
+    own = SimpleNamespace(
+        fields=("u",), initial=lambda x: (np.sin(x),), steady=lambda x: (0 * x,), forcing=lambda x: None,
+        rhs=lambda x, state, derivative, forcing: (derivative(state[0], 2),),
+    )  # fmt: skip
+    with pytest.raises(PastHorizon, match="ill posed"):
+        work_precision(PDE("u_t = -u_xx", {"u": "exp(cos(x))"}), 1.0, [])
+    with pytest.raises(PastHorizon, match=r"u first touches 0"):
+        work_precision(Toy(0.5), 5.0, [])
+    with pytest.raises(TypeError, match=r"^exact must be a function of x and t, where the problem is no Toy, PDE or"):
+        work_precision(own, 1.0, [])
+    for wrong in (lambda x, t: 0.0, lambda x, t: [x, x], lambda x, t: x * np.nan):
+        with pytest.raises(TypeError, match=r"^exact must give 1 finite arrays of the shape of x"):
+            work_precision(own, 1.0, [], exact=wrong)
+    methods = [replace(m, knobs=(16, 32)) for m in contestants(False, own, 1.0) if m.name == "central 4 + RK4"]
+    found = work_precision(own, 1.0, methods, repeats=1, exact=lambda x, t: np.exp(-t) * np.sin(x))
+    assert math.log2(found.points[0].error / found.points[1].error) == pytest.approx(4, abs=0.2)
+
+
+def test_a_method_is_taken_no_further_than_it_goes():
+    def march(toy, n, t_end):
+        if n > 8:
+            raise ValueError("n must be small")
+        return np.zeros(n), np.zeros((2, n)), 0.1
+
+    found = work_precision(Toy(1.5), 0.1, [Method("m", march, (8, 16, 32)), Method("k", march, (8,))], repeats=1)
+    assert [(p.method, p.n) for p in found.points] == [("m", 8), ("k", 8)]
+    for study in (
+        lambda: work_precision(Toy(1.5), 0.1, [Method("m", march, (16,))]),
+        lambda: cost.cost_against_n(Toy(1.5), 0.1, (16,), [Method("m", march, (8,))]),
+    ):
+        with pytest.raises(ValueError, match=r"^n must be small"):
+            study()
+
+
+def test_the_cost_of_any_equation_is_that_of_its_whole_march():
+    """Steps are those of a march to t_end, whatever stretch is timed; finding them out is not timed."""
+    heat = PDE("u_t = u_xx", {"u": "1 + sin(x)"})
+    (paper,) = (m for m in contestants(False, heat, 2.0) if m.name == "FTCS")
+    asked = []
+    watched = replace(paper, step=lambda problem, n: asked.append(n) or paper.step(problem, n))
+    points = cost.cost_against_n(heat, 2.0, (20, 40), [watched], seconds=1e-3)
+    assert asked == [20, 40]
+    for p in points:
+        limit = (2 * math.pi / p.n) ** 2 / 4 * 2 / 5
+        assert limit / 2 < p.dt <= limit
+
+
+def test_py_pde_is_given_any_text():
+    pde = PDE(
+        "u_tt = -(u_x - b*x/2)_x + u_xxxx/4 + abs(u)^3*exp(t) - 2i*u_t", {"u": "1", "u_t": "0"}, b=-0.5 + 1j
+    )  # fmt: skip
+    assert py_pde.expressions(pde) == {
+        "u": "u_t",
+        "u_t": "((((-d_dx((d_dx(u) - (((-0.5 + 1.0*I) * x) / 2)))) + (laplace(laplace(u)) / 4))"
+        " + ((Abs(u)**3) * exp(t))) - ((2 * I) * u_t))",
+    }
 
 
 DOUBLING = (25, 50, 100, 200, 400, 800, 1600, 3200)

@@ -2,17 +2,19 @@
 
 import math
 import time
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
+from typing import Any
 
 import numpy as np
 
 from primer.checks import instance, integer, real, sequence
 from primer.problems.toy import Toy
 from primer.schemes.grid import grids
-from primer.schemes.reference import reference
+from primer.schemes.marching import a_problem
 from primer.study.contestants import Method, contestants
+from primer.study.truth import solution
 
 _AT_LEAST = 0.05  # seconds over which short runs are repeated
 
@@ -34,11 +36,15 @@ class Point:
 
 @dataclass(frozen=True)
 class WorkPrecision:
-    """The outcome of :func:`work_precision`: runs of ``toy`` to ``t_end``, method by method."""
+    """The outcome of :func:`work_precision`: runs of ``toy``, whatever problem it is, to ``t_end``, method by method.
 
-    toy: Toy
+    ``doubt`` is the error bar of what errors are measured against: smaller ones say nothing.
+    """
+
+    toy: Any
     t_end: float
     points: tuple[Point, ...]
+    doubt: float = 0.0
 
     @property
     def methods(self) -> tuple[str, ...]:
@@ -55,50 +61,72 @@ class WorkPrecision:
 
 
 def work_precision(
-    toy: Toy | None = None,
+    toy: Any = None,
     t_end: float = 5.0,
     methods: Iterable[Method] | None = None,
     patience: float = 1.0,
     repeats: int = 5,
+    exact: Callable | None = None,
 ) -> WorkPrecision:
     """Run every method through its knobs; compare the errors at t_end and the wall times.
 
     Parameters
     ----------
-    toy : Toy          the problem (default: a = 1.5, eps = 0.01); it needs a ``reference`` at t_end
+    toy                the problem: a ``Toy`` (default: a = 1.5, eps = 0.01) or a ``PDE`` with a ``reference`` at t_end,
+                       a ``BackwardHeat``, which is solved in closed form, or any other with a solution ``exact``
     t_end : float      the end, t_end > 0
-    methods            a sequence of ``Method`` (default: ``contestants()``)
-    patience : float   seconds; a method is taken no further after a run that took longer
+    methods            a sequence of ``Method`` (default: ``contestants(problem=toy, t_end=t_end)``)
+    patience : float   seconds; a method is taken no further after a run that took longer, or that it refused
     repeats : int      runs of which the median time counts, after one more that compiles what is to be compiled (py-pde
                        compiles each time); one run must do if it takes longer than ``patience``
+    exact              ``exact(x, t)``: the fields at the points x and the time t, against which errors are measured
 
     Returns
     -------
-    WorkPrecision; an error is the largest of u and v on the method's grid (infinite after a blow-up), against a
-    reference with an error bar below 1e-13 (|a| + 2)
+    WorkPrecision; an error is the largest of any field on the method's grid (infinite after a blow-up), against
+    ``exact``, or a reference with an error bar below 1e-13 (|a| + 2), of a ``PDE`` below 1e-11 (1 + max |initial|)
+    or, where that cannot be had, 100 or 10,000 times as much
 
-    For eq. (toy-pde).
+    Raises
+    ------
+    PastHorizon              if there is no reference at t_end
+    TypeError, ValueError    in one sentence, for an argument that is not allowed
 
+    For eq. (toy-pde), and any other.
+
+    >>> from primer import PDE
     >>> from primer.study.contestants import contestants
     >>> (paper,) = [method for method in contestants() if method.name == "FTCS"]
     >>> found = work_precision(methods=[paper], patience=0.01, repeats=1)
     >>> print(found.methods, found.points[0].n, f"{found.points[0].error:.4f}")
     ('FTCS',) 25 0.0146
+    >>> heat = PDE("u_t = u_xx", {"u": "sin(x)"})
+    >>> found = work_precision(heat, 1.0, [paper], 0.01, 1, exact=lambda x, t: [np.exp(-t) * np.sin(x)])
+    >>> print(found.points[0].n, f"{found.points[0].error:.4f}")  # (h^2/12 - dt/2) e^-1 sin x
+    25 0.0009
     """
-    toy = Toy(1.5) if toy is None else instance("toy", toy, Toy)
+    toy = Toy(1.5) if toy is None else toy
+    a_problem("toy", toy)
     t_end, patience = real("t_end", t_end, above=0), real("patience", patience, above=0)
     repeats = integer("repeats", repeats, least=1, most=10_000)
-    methods = _methods(contestants() if methods is None else methods)
-    truth = reference(toy, t_end, tol=1e-13 * (abs(toy.a) + 2))
-    points = []
+    methods = _methods(contestants(problem=toy, t_end=t_end) if methods is None else methods)
+    truth, doubt = solution(toy, t_end, exact)
+    points, refusal = [], None
     for method in methods:
         for knob in method.knobs:
-            seconds, (x, fields, dt) = clock(partial(method.march, toy, knob, t_end), patience, repeats)
-            error = np.abs(np.array(fields) - [f[0] for f in truth.at(x)]).max()
+            try:
+                _prepare(method, toy, knob)
+                seconds, (x, fields, dt) = clock(partial(method.march, toy, knob, t_end), patience, repeats)
+            except ValueError as refused:
+                refusal = refused
+                break
+            error = np.abs(np.array(fields) - truth(x)).max()
             points.append(Point(method.name, len(x), dt, float(error) if error < math.inf else math.inf, seconds))
             if seconds > patience:
                 break
-    return WorkPrecision(toy, t_end, pareto(points))
+    if refusal is not None and not points:
+        raise refusal
+    return WorkPrecision(toy, t_end, pareto(points), doubt)
 
 
 def pareto(points: Sequence[Point]) -> tuple[Point, ...]:
@@ -114,7 +142,7 @@ def pareto(points: Sequence[Point]) -> tuple[Point, ...]:
 
 
 def cost_against_n(
-    toy: Toy | None = None,
+    toy: Any = None,
     t_end: float = 5.0,
     ns: Iterable[int] = (50, 100, 200, 400, 800, 1600, 3200),
     methods: Iterable[Method] | None = None,
@@ -122,32 +150,48 @@ def cost_against_n(
 ) -> tuple[Point, ...]:
     """Wall time to t_end on n points, for the methods whose knob is n, with steps both stable and accurate enough.
 
-    A stretch of the march that takes at least half of ``seconds`` is timed and scaled to t_end.
+    ``toy`` is the problem, any that can be marched (default: the toy system with a = 1.5, eps = 0.01). A stretch of the
+    march that takes at least half of ``seconds`` is timed and scaled to t_end. A method that refuses a grid is taken no
+    further.
 
     Returns
     -------
     tuple of ``Point``, with error NaN
 
-    For eq. (toy-pde).
+    For eq. (toy-pde), and any other.
 
     >>> from primer.study.contestants import contestants
     >>> (paper,) = [method for method in contestants() if method.name == "FTCS"]
     >>> [point.n for point in cost_against_n(ns=(20, 40), methods=[paper], seconds=1e-3)]
     [20, 40]
     """
-    toy, points = Toy(1.5) if toy is None else instance("toy", toy, Toy), []
+    toy, points = Toy(1.5) if toy is None else toy, []
+    a_problem("toy", toy)
     t_end, seconds = real("t_end", t_end, above=0), real("seconds", seconds, above=0)
     ns = grids("ns", sequence("ns", ns, "grids, such as [50, 100]"))
-    for method in _methods(contestants(with_py_pde=False) if methods is None else methods):
+    refusal = None
+    for method in _methods(contestants(with_py_pde=False, problem=toy, t_end=t_end) if methods is None else methods):
         for n in ns if method.by_points else ():
             span = min(t_end, 5.0 / n**2)
-            while True:
-                spent, (_, _, dt) = clock(partial(method.march, toy, n, span), seconds, 1)
-                if spent > seconds / 2 or span >= t_end:
-                    break
-                span = min(t_end, 4 * span)
+            try:
+                _prepare(method, toy, n)
+                while True:
+                    spent, (_, _, dt) = clock(partial(method.march, toy, n, span), seconds, 1)
+                    if spent > seconds / 2 or span >= t_end:
+                        break
+                    span = min(t_end, 4 * span)
+            except ValueError as refused:
+                refusal = refused
+                break
             points.append(Point(method.name, n, dt, math.nan, spent * t_end / span))
+    if refusal is not None and not points:
+        raise refusal
     return tuple(points)
+
+
+def _prepare(method, problem, knob):
+    if method.step is not None:
+        method.step(problem, knob)
 
 
 def _methods(methods):

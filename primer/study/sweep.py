@@ -18,7 +18,7 @@ from primer.schemes.ensemble import ftcs_ensemble
 from primer.schemes.run import Seed, Stop
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Job:
     """Some cells of a map: ``work(*arguments)``, in any process, gives {key: values}, a row of the table for each cell.
 
