@@ -12,11 +12,11 @@ from . import view as view
 from .analysis.directions import MaxGrowth as MaxGrowth
 from .analysis.directions import max_growth as max_growth
 from .analysis.laws import growth_laws as growth_laws
+from .analysis.outcome import Verdict as Verdict
 from .analysis.pencil import Pencil as Pencil
 from .analysis.pencil import growth as growth
 from .analysis.symbolic import growth_rates as growth_rates
 from .analysis.symbolic import linearise as linearise
-from .analysis.verdict import Verdict as Verdict
 from .analysis.verdict import verdict as verdict
 from .equations.error import PDEError as PDEError
 from .granular.compaction import Compaction as Compaction
@@ -54,6 +54,9 @@ from .study.cost import cost_against_n as cost_against_n
 from .study.cost import work_precision as work_precision
 from .study.diagnosis import Diagnosis as Diagnosis
 from .study.diagnosis import diagnose as diagnose
+from .study.exact import exact_march as exact_march
+from .study.examination import Examination as Examination
+from .study.examination import examine as examine
 from .study.maps import blow_up_map as blow_up_map
 from .study.refinement import heat_onset as heat_onset
 from .study.refinement import refine as refine

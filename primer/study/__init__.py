@@ -2,6 +2,7 @@
 
 from primer.study.cost import cost_against_n, work_precision
 from primer.study.diagnosis import diagnose
+from primer.study.examination import examine
 from primer.study.maps import blow_up_map
 from primer.study.refinement import heat_onset, refine
 from primer.study.stability import stable_dt
@@ -11,6 +12,7 @@ __all__ = [
     "blow_up_map",
     "cost_against_n",
     "diagnose",
+    "examine",
     "grid_threshold",
     "heat_onset",
     "refine",
