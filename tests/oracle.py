@@ -418,7 +418,7 @@ def _in_plane(D, found):
                 if wrong:
                     return wrong
     if found.kind == "ill-posed" and math.isfinite(found.coefficient) and "approached" not in found.reason:
-        x, y = (Fraction(v).limit_denominator(10**15) for v in found.direction)
+        x, y = (Fraction(v).limit_denominator(10**15) for v in (*found.direction, 0.0)[:2])
         high = growth(D, *(10**14 * v for v in (x, y)), digits=80)
         law = found.coefficient * 1e14 ** float(found.exponent)
         if high is not None and high < law * 0.99:
