@@ -36,6 +36,7 @@ FLOORS = [
     "exercises",
     "view",
     "lab",
+    "run",
     "__main__",
 ]
 
