@@ -12,6 +12,7 @@ from primer.claims import VERDICTS, claims
 from primer.claims import report as claims_report
 from primer.granular.command import add_command as add_granular
 from primer.lab import add_command as add_lab
+from primer.diagnosing import add_command as add_diagnose
 from primer.run import add_command as add_run
 from primer.terminal import Parser, coloured
 
@@ -56,6 +57,7 @@ def _parser():
     commands = parser.add_subparsers(metavar="COMMAND", required=True)
     _add_verdict(commands)
     add_run(commands)
+    add_diagnose(commands)
     add_granular(commands)
     add_lab(commands)
     _add_claims(commands)

@@ -37,6 +37,7 @@ FLOORS = [
     "view",
     "lab",
     "run",
+    "diagnosing",
     "__main__",
 ]
 
