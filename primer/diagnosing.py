@@ -15,7 +15,7 @@ def add_command(commands):
         description="Say what a run of an evolution equation in x (periodic) by central differences will do, and "
         "whether to blame the scheme, the grid or the equations. Fields that are given by --at alone start uniform; "
         "--initial gives others.",
-        epilog="example: primer diagnose 'u_t = (u^3 - u - 0.01*u_xx)_xx' --at u=0.1 --n 100 --dt 1e-4 --time rk4 --t-end 1",
+        epilog="example: primer diagnose 'u_t = (u^3 - u - 0.01*u_xx)_xx' --at u=0.1 --n 100 --dt 1e-4 --time rk4",
         allow_abbrev=False,
     )
     sub.add_argument("pde", metavar="PDE", help="such as 'u_t = u_xx'; - reads it from standard input")
@@ -45,7 +45,7 @@ def _diagnose(options):
     text = sys.stdin.read() if options.pde == "-" else options.pde
     given = dict(options.at)
     fields = evolution(text, tuple(given)).fields
-    initial = data_of(";".join(options.initial), "--initial") if options.initial else {}
+    initial: dict = data_of(";".join(options.initial), "--initial") if options.initial else {}
     initial = {name: given.pop(name) for name in fields if name in given} | initial
     initial = {name: 0.0 for name in fields if name.endswith("_t")} | initial
     problem = PDE(text, initial, period=options.period, **given)

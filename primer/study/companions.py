@@ -42,7 +42,9 @@ def march(problem: Any, n: int, dt: float, t_end: float, seed, dtype, time) -> F
     steps = max(round(t_end / dt), 0)
     looks = np.unique(np.round(np.concatenate([np.linspace(0, steps, _LOOKS // 2), steps / 2.0 ** np.arange(12)])))
     if time.order == 1:
-        run = ftcs(problem, n, dt, t_end, snapshots=looks * dt, seed=seed, dtype=dtype, progress=False)
+        run = ftcs(
+            problem, n, dt, t_end, snapshots=np.minimum(looks * dt, t_end), seed=seed, dtype=dtype, progress=False
+        )
         kept = {t: np.array(s) for t, s in run.snapshots.items() if np.isfinite(np.array(s)).all()}
         times = np.array(sorted(kept))
         return Fate(
@@ -54,7 +56,9 @@ def march(problem: Any, n: int, dt: float, t_end: float, seed, dtype, time) -> F
     counts = np.diff(checks, prepend=0)
     states, _ = trace(problem, n, CENTRAL, time, np.full(counts.size, dt), counts)
     first = np.array(fields_of(problem, "initial", grid_of(problem, n).x))
-    fine = np.isfinite(states).all(axis=(1, 2)) & (np.abs(states).max(axis=(1, 2)) < 1e3 * max(np.abs(first).max(), 1.0))
+    fine = np.isfinite(states).all(axis=(1, 2)) & (
+        np.abs(states).max(axis=(1, 2)) < 1e3 * max(np.abs(first).max(), 1.0)
+    )
     lost = int(np.argmax(~fine)) if not fine.all() else checks.size
     t = checks * dt
     return Fate(n, dt, float(t[lost]) if lost < checks.size else np.inf, t[:lost:8], states[:lost:8])

@@ -16,7 +16,7 @@ class Kind(StrEnum):
     HIDDEN = "hidden"  # ill posed, but this grid cannot see it by the end of the run
     ILL_POSED = "ill-posed"  # ill posed, and this grid blows up
     TRANSIENT = "transient"  # a well-posed steady state, but ill posed on the way
-    SCHEME = "scheme"  # the time step is too large: a smaller one lives
+    SCHEME = "scheme"  # the time step is too large: it amplifies what does not grow of itself
     UNSTABLE = "unstable"  # perturbations grow, no faster on finer grids: the model's own physics
     UNDECIDED = "undecided"
 

@@ -27,7 +27,16 @@ def tried(problem, n, dt, t_end, seed, dtype, time):
     growths, ns, own, bad, limit, length = _linear(problem, n, dt, main, time)
     rises = _rise(growths, ns)
     size = f"{', '.join(f'{g:.3g}' for g in growths)} on n = {', '.join(map(str, ns))}"
-    about = {"n": n, "dt": dt, "t_end": t_end, "t": main.t_lost, "where": places.text, "size": size, "limit": limit}
+    about = {
+        "n": n,
+        "dt": dt,
+        "t_end": t_end,
+        "t": main.t_lost,
+        "where": places.text,
+        "size": size,
+        "limit": limit,
+        "bad": bad,
+    }
     if lost:
         kind, reason, limit = _of_a_blow_up(problem, main, places, rises, bad, own, about, seed, dtype, time)
     else:
@@ -119,8 +128,8 @@ def _of_a_blow_up(problem, main, places, rises, bad, own, about, seed, dtype, ti
     sooner = fine is not None and fine.t_lost < _SOONER * gentle.t_lost
     if places.ill.any() and (rises or sooner):
         return Kind.ILL_POSED, (
-            f"The equations are ill posed {about['where']}: growth rises with the grid, {about['size']}, {text}, and no "
-            "smaller dt helps."
+            f"The equations are ill posed {about['where']}: growth rises with the grid, {about['size']}, {text}, and "
+            "no smaller dt helps."
         ), math.nan  # fmt: skip
     if places.ill.any() and not rises:
         return Kind.UNDECIDED, (
@@ -131,8 +140,8 @@ def _of_a_blow_up(problem, main, places, rises, bad, own, about, seed, dtype, ti
         return Kind.UNSTABLE, f"{_looks_ill_posed(problem, main, about)}; {text}, and no smaller dt helps.", math.nan
     if fine is not None and abs(fine.t_lost / gentle.t_lost - 1) < 0.25:
         return Kind.UNSTABLE, (
-            f"The equations are well posed at each point, and growth is bounded: {about['size']}; {text}, on 2 n points and "
-            f"with a smaller dt near t = {fine.t_lost:.3g} too: the solution's own."
+            f"The equations are well posed at each point, and growth is bounded: {about['size']}; {text}, on 2 n "
+            f"points and with a smaller dt near t = {fine.t_lost:.3g} too: the solution's own."
         ), math.nan  # fmt: skip
     other = "lives longer" if fine is not None else "was not tried"
     return Kind.UNDECIDED, (
@@ -144,11 +153,11 @@ def _of_a_blow_up(problem, main, places, rises, bad, own, about, seed, dtype, ti
 def _of_a_life(problem, main, places, rises, growths, about, seed, dtype, time):
     """(kind, reason) of a run that reaches its end."""
     if places.ill.any() and (rises or _fails_finer(problem, main, about, seed, dtype, time)):
-        if not places.ill[-1].any() and places.ill[0].any() or (places.ill.any() and not places.ill[[0, -1]].any()):
+        if (not places.ill[-1].any() and places.ill[0].any()) or (places.ill.any() and not places.ill[[0, -1]].any()):
             first = main.t[int(np.argmax(places.ill.any(axis=1)))]
             return Kind.TRANSIENT, (
-                f"On the way, from t = {first:.3g} on, the equations are ill posed {about['where']}; the run recovers before "
-                f"anything on n = {about['n']} points has grown enough."
+                f"On the way, from t = {first:.3g} on, the equations are ill posed {about['where']}; the run recovers "
+                f"before anything on n = {about['n']} points has grown enough."
             )  # fmt: skip
         return Kind.HIDDEN, (
             f"The equations are ill posed {about['where']}, growth on finer grids rises, {about['size']}, but on n = "
@@ -162,10 +171,17 @@ def _of_a_life(problem, main, places, rises, growths, about, seed, dtype, time):
     if rises and _bound_at(problem, main):
         return Kind.UNSTABLE, f"{_looks_ill_posed(problem, main, about)}; this run reaches its end."
     separates = _separation(problem, main, about["t_end"], seed, dtype, time)
+    limit, bad = about["limit"], about["bad"]
+    if separates > 1e3 and bad > 2 * max(growths[-1], 0.0):
+        cure = f"dt <= {limit:.3g} would do" if 0 < limit < about["dt"] else "another scheme would do"
+        return Kind.SCHEME, (
+            f"The step dt = {about['dt']:g} is too large for n = {about['n']}: what does not grow of itself is amplified "
+            f"like e^({bad:.3g} t), {separates:.2g} times by the end, though nothing is lost by then; {cure}."
+        )
     if separates > 1e3:
         return Kind.UNSTABLE, (
-            f"Nothing is ill posed and growth is bounded, {about['size']}, but perturbations have grown {separates:.2g} "
-            f"times by t = {about['t_end']:g}: the model's own."
+            f"Nothing is ill posed and growth is bounded, {about['size']}, but perturbations have grown "
+            f"{separates:.2g} times by t = {about['t_end']:g}: the model's own."
         )
     return Kind.CONVERGES, (
         f"Nothing is ill posed, a perturbation is {separates:.2g} times as large at the end, and the run reaches it "
@@ -205,10 +221,8 @@ def _fails_finer(problem, main, about, seed, dtype, time):
     return math.isfinite(march(problem, n, dt, about["t_end"], seed, dtype, time).t_lost)
 
 
-
-
 def _lives_without(problem, main, dtype, time):
-    return not math.isfinite(march(problem, main.n, main.dt, 1.02 * main.t_lost, None, dtype, time).t_lost)
+    return not math.isfinite(march(problem, main.n, main.dt, 1.1 * main.t_lost, None, dtype, time).t_lost)
 
 
 def _separation(problem, main, t_end, seed, dtype, time):

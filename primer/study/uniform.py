@@ -4,10 +4,10 @@ import math
 
 import numpy as np
 
+from primer.schemes.grid import CENTRAL
 from primer.schemes.jacobian import rates
 from primer.schemes.limit import NEUTRAL, factor, largest_step
 from primer.schemes.marching import fields_of, grid_of, slope_of
-from primer.schemes.grid import CENTRAL
 from primer.study.kinds import Diagnosis, Kind
 
 _RISES = 0.2  # the power of n from which on growth is not bounded
@@ -58,8 +58,8 @@ def about_uniform(problem, n, dt, t_end, seed, epsilon, time):
     elif rises and growths[0] > 0 and lost:
         kind = Kind.ILL_POSED
         reason = (
-            f"Growth rises with the grid, {size}: the equations are ill posed as these grids see them, {waves_text} grow "
-            f"like e^({fastest:.3g} t), and {when}; no smaller dt helps."
+            f"Growth rises with the grid, {size}: the equations are ill posed as these grids see them, {waves_text} "
+            f"grow like e^({fastest:.3g} t), and {when}; no smaller dt helps."
         )
     elif rises:
         kind = Kind.HIDDEN

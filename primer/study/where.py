@@ -1,11 +1,14 @@
-"""Where on the grid the equations, frozen at a state that a run visits, are ill posed: "where u < 0, for |x| < 1.05"."""
+"""Where the equations, frozen at a state that a run visits, are ill posed: "where u < 0, for |x| < 1.05"."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
+from primer.equations.evaluate import known
+from primer.equations.slopes import linearised
 from primer.schemes.fourier import FOURIER
 from primer.schemes.marching import grid_of
 
@@ -52,9 +55,10 @@ def _at(problem, x, state):
         return FOURIER[m](f, grid_of(problem, x.size).h)
 
     with np.errstate(all="ignore"):
-        about = problem.linearised(x, tuple(state), derivative)
-        for sign in (1, -1):
-            symbol = about.symbol(lambda m, sign=sign: ((1j * sign * xi) ** m)[:, None])
+        given = known(problem.evolution, x, problem.parameters)
+        about = linearised(problem.evolution, problem.parameters, tuple(state), derivative, given)
+        for waves in (xi, -xi):
+            symbol = about.symbol(partial(_multiplier, waves))
             symbol = np.broadcast_to(symbol, (xi.size, x.size, *symbol.shape[2:]))
             good = np.isfinite(symbol).all(axis=(0, 2, 3))
             lam = np.linalg.eigvals(np.where(good[:, None, None], symbol, 0))
@@ -63,6 +67,10 @@ def _at(problem, x, state):
             rises = (growth[1:] > _RISES * growth[:-1]).all(axis=0) & (growth[0] >= 0) & (growth[-1] > 0)
             found |= rises & good
     return found
+
+
+def _multiplier(xi, m):
+    return ((1j * xi) ** m)[:, None]
 
 
 def _words(problem, x, ill, states):
