@@ -1,4 +1,4 @@
-"""Write the README's tables anew from the numbers stored beside the figures: ``python figures/readme.py``.
+"""Write the tables of ``figures/README.md`` anew from the numbers beside the figures: ``python figures/readme.py``.
 
 What stands between ``<!-- NAME: begin -->`` and ``<!-- NAME: end -->`` is written here and nowhere else.
 """
@@ -13,7 +13,7 @@ from tempfile import NamedTemporaryFile
 from primer.study import measured
 
 HERE = Path(__file__).resolve().parent
-README = HERE.parent / "README.md"
+README = HERE / "README.md"
 TARGETS = (1e-3, 1e-6, 1e-10)
 # (what it is, figure, its claim, format)
 NUMBERS = (
@@ -73,7 +73,7 @@ def written(text):
     for name, part in PARTS.items():
         begin, end = f"<!-- {name}: begin -->\n", f"<!-- {name}: end -->\n"
         if text.count(begin) != 1 or text.count(end) != 1:
-            raise ValueError(f"the README must have the lines {begin.strip()} and {end.strip()} once each")
+            raise ValueError(f"README.md must have the lines {begin.strip()} and {end.strip()} once each")
         before, after = text.split(begin)[0], text.split(end)[1]
         text = before + begin + "\n".join(part()) + "\n" + end + after
     return text

@@ -1,7 +1,6 @@
 """Regenerate the figures, each with a JSON of its numbers: ``python figures/regenerate.py [NAME ...]``.
 
-Some are made on request, that is by name: a movie, as mp4 where ffmpeg is found, else as GIF; and a page, as HTML,
-where Bokeh is installed.
+Some are made on request, that is by name: a movie, as mp4 where ffmpeg is found, else as GIF; and a page, as HTML.
 """
 
 import argparse
@@ -20,7 +19,7 @@ import sidecar
 from tqdm import tqdm
 
 from primer.view.movie import MOVIES, Movie, save_movie, writable
-from primer.view.page import Page, possible, save_page
+from primer.view.page import Page, save_page
 from primer.view.style import FORMATS, save, styled
 
 HERE = Path(__file__).resolve().parent
@@ -28,7 +27,6 @@ ON_REQUEST = ["blow_up_movie", "explorer"]  # too slow to draw each time, or too
 PAGES = ["explorer"]
 _NEEDS = {
     "blow_up_movie": "ffmpeg or Pillow to be written, and neither is here",
-    "explorer": "Bokeh, which the extra 'page' brings: python -m pip install -e \".[page]\"",
 }
 NAMES = sorted({path.stem for path in HERE.glob("*.py")} - {"regenerate", "sidecar", "readme", *ON_REQUEST})
 
@@ -129,7 +127,7 @@ def _drift(name, out, fresh):
 def _formats(name):
     """What a figure can be written as here, the default first."""
     if name in PAGES:
-        return ("html",) if possible() else ()
+        return ("html",)
     return writable() if name in ON_REQUEST else FORMATS
 
 

@@ -6,6 +6,7 @@ import math
 import os
 import sys
 from dataclasses import asdict
+from typing import Any
 
 from primer import __version__
 from primer.claims import VERDICTS, claims
@@ -14,6 +15,7 @@ from primer.diagnosing import add_command as add_diagnose
 from primer.granular.command import add_command as add_granular
 from primer.lab import add_command as add_lab
 from primer.run import add_command as add_run
+from primer.site import add_command as add_site
 from primer.terminal import Parser, coloured
 
 _GREETING = """Welcome to primer: change one number, and watch a system of PDEs stop making sense.
@@ -41,7 +43,8 @@ def main(arguments=None):
         options = parser.parse_args(arguments)
         print(coloured(options.command(options)), flush=True)
     except (ValueError, TypeError) as error:
-        print(f"primer: {error}", file=sys.stderr)
+        said = error.said("shell") if hasattr(error, "said") else error  # a PDEError, which need not be imported
+        print(f"primer: {said}", file=sys.stderr)
         return 2
     except KeyboardInterrupt:
         return 130
@@ -60,7 +63,9 @@ def _parser():
     add_diagnose(commands)
     add_granular(commands)
     add_lab(commands)
+    add_site(commands)
     _add_claims(commands)
+    _add_help(commands)
     return parser
 
 
@@ -69,7 +74,8 @@ def _add_verdict(commands):
         "verdict",
         help="is a PDE linearly ill-posed?",
         description="Linearise a PDE about a base state, freeze it at a point, and say whether the growth of its short "
-        "waves is bounded (section A2.1). In one space variable x, or two, x and y; equations are separated by ';'.",
+        "waves is bounded (section A2.1). In one space variable x, or two, x and y; equations are separated by ';'. "
+        "How equations are written: primer help equations.",
         epilog="example: primer verdict 'u_t = v_x; v_t = eps*u*v_xx + u_x - v - sin(x)' --at u=-0.5 v_xx=0.3 eps=0.01",
         allow_abbrev=False,
     )
@@ -82,8 +88,11 @@ def _add_verdict(commands):
         default=[],
         type=_assignment,
         metavar="NAME=VALUE",
-        help="base-state values and parameters",
+        help="base-state values and parameters; of a function f(u), a text: 'f=u^3 - u'",
     )
+    sub.add_argument("--uniform", action="store_true", help="all derivatives of the base state are 0")
+    sub.add_argument("--space", metavar="NAMES", help="what the space variables are called, such as r, or x,z")
+    sub.add_argument("--time", metavar="NAME", help="what time is called (default: t)")
     sub.add_argument("--order", choices=("full", "maximal"), default="full", help="which terms to keep (default: full)")
     sub.add_argument("--json", action="store_true", help="print one JSON object")
     sub.set_defaults(command=_verdict)
@@ -96,7 +105,10 @@ def _verdict(options):
     from primer.analysis.verdict import verdict
 
     text = sys.stdin.read() if options.pde == "-" else options.pde
-    found = verdict(text, at=dict(options.at), order=options.order)
+    functions = {name: value for name, value in options.at if isinstance(value, str)}
+    at = {name: value for name, value in options.at if name not in functions}
+    declared: dict[str, Any] = {"uniform": options.uniform, "space": options.space, "time": options.time}
+    found = verdict(text, at=at, order=options.order, **{**declared, **functions})
     if options.json:
         number = {"exponent": _plain(found.exponent), "exponent_text": str(found.exponent)}
         rest = {name: _plain(getattr(found, name)) for name in ("coefficient", "bound")}
@@ -135,17 +147,37 @@ def _claims(options):
     return json.dumps([asdict(claim) for claim in found], indent=1) if options.json else claims_report(found)
 
 
+def _add_help(commands):
+    sub = commands.add_parser(
+        "help",
+        help="how equations are written",
+        description="Explain a topic in a screen.",
+        epilog="example: primer help equations",
+        allow_abbrev=False,
+    )
+    sub.add_argument("topic", nargs="?", choices=("equations",), default="equations")
+    sub.set_defaults(command=_help)
+
+
+def _help(options):
+    from primer import equations
+
+    return "\n".join(equations.__doc__.splitlines()[2:])
+
+
 def _plain(value):
     """A float that JSON can hold: null for nan and infinity."""
     return float(value) if math.isfinite(value) else None
 
 
 def _assignment(text):
-    name, equals, value = text.partition("=")
-    try:
-        return name.strip(), float(value) if equals and name.strip() else _fail(text)
-    except ValueError:
+    name, equals, value = (part.strip() for part in text.partition("="))
+    if not equals or not name or not value or "=" in value:
         return _fail(text)
+    try:
+        return name, float(value)
+    except ValueError:
+        return (name, value) if any(c.isalpha() for c in value) else _fail(text)  # a function as a text
 
 
 def _fail(text):

@@ -45,7 +45,7 @@ def copy_course(folder, solutions=True):
     ------
     ValueError    if folder cannot be made or written, or the notebooks are not installed
     """
-    folder, source = Path(folder), _source()
+    folder, source = Path(folder), course()
     copied, kept = [], []
     try:
         for path in sorted(source.rglob("*.ipynb")):
@@ -68,7 +68,7 @@ def copy_course(folder, solutions=True):
 
 def last_worked_on(folder):
     """The notebook of ``folder`` that was changed last, of those that are no longer as they came; else the first."""
-    source, changed = _source(), {}
+    source, changed = course(), {}
     for path in Path(folder).glob("*.ipynb"):
         shipped = source / path.name
         if not (shipped.exists() and shipped.read_bytes() == path.read_bytes()):
@@ -76,7 +76,13 @@ def last_worked_on(folder):
     return changed[max(changed)] if changed else _FIRST
 
 
-def _source():
+def course():
+    """The folder of the notebooks, as they came.
+
+    Raises
+    ------
+    ValueError    if they are not there
+    """
     for place in _SHIPPED:
         if any(place.glob("*.ipynb")):
             return place

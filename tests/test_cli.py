@@ -52,7 +52,7 @@ def test_order(capsys):
     [
         (["u_t = foo(u)"], "'foo' is not a known function"),
         (["u_t = (u"], "expected ')'"),
-        (["u_t = a*u_xx"], "not given: parameters a=..."),
+        (["u_t = a*u_xx"], "not given: parameters --at a=..."),
         (["u_t = u_xx", "--at", "w=3"], "'w' has a value"),
         (["u_t = u_xx", "--at", "u=nan"], "u must be a finite number"),
         ([""], "no equation"),

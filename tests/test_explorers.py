@@ -10,8 +10,9 @@ import pytest
 from matplotlib.image import imread
 
 import primer
-from primer.view import explorers
+from primer.view import PDEExplorer, explorers
 from primer.view.explorers.controls import Choice, Line, Number
+from primer.view.explorers.switch import Switch
 from primer.view.picture import Picture
 
 EXPLORERS = [getattr(explorers, name) for name in explorers.__all__]
@@ -176,7 +177,33 @@ def test_labels_are_there_for_those_who_listen(explorer):
         assert row.widget.children[0].description == control.label
         if isinstance(control, Number):
             assert row.widget.children[1].tooltip == control.label
-    assert all(isinstance(control, (Number, Choice, Line)) for control in explorer.controls)
+    assert all(isinstance(control, (Number, Choice, Line, Switch)) for control in explorer.controls)
+
+
+def test_another_pde_starts_clean():
+    for explorer in (PDEExplorer.from_state("pde=u_t = -u_xx"), PDEExplorer(pde="u_t = -u_xx")):
+        assert explorer.verdict.startswith("Ill posed")
+        assert explorer.values["at"] == ""
+    assert PDEExplorer.snapshot("pde=u_t = -u_xx").verdict == explorer.verdict
+    assert PDEExplorer.from_state("n=32").values["at"] == PDEExplorer().values["at"] != ""
+
+
+def test_a_uniform_base_state_is_a_tick():
+    asked = PDEExplorer.from_state("pde=u_t = u u_xx,at=u=1")
+    assert "uniform base state (uniform) must be yes" in asked.verdict
+    asked.set(uniform=True)
+    assert asked.verdict.startswith("Well posed")
+    assert PDEExplorer.from_state(asked.state).verdict == asked.verdict
+    with pytest.raises(ValueError, match="uniform must be yes or no, got 'perhaps'"):
+        PDEExplorer.from_state("uniform=perhaps")
+
+
+def test_the_explorer_speaks_its_own_language():
+    assert "give k=..." not in PDEExplorer.from_state("pde=u_t = u_xx - f").verdict
+    assert "f=... in the base state" in PDEExplorer.from_state("pde=u_t = u_xx - f").verdict
+    assert "space=r in the base state" in PDEExplorer.from_state("pde=u_t = u_rr").verdict
+    assert PDEExplorer.from_state("pde=u_t = u_rr,at=space=r").verdict.startswith("Well posed")
+    assert PDEExplorer.from_state("pde=u_t = (f(u))_xx,at=u=0 f=u^3-u,uniform=yes").verdict.startswith("Ill posed")
 
 
 @pytest.mark.slow

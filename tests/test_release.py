@@ -43,7 +43,6 @@ def built(tmp_path_factory):
 def ours(folder, pattern="*"):
     """What git would keep of a folder: not what running leaves behind."""
     left = {"__pycache__", ".ipynb_checkpoints", "artefacts"}
-    left |= {"explorer.html"}  # made on request
     paths = (p for p in (ROOT / folder).rglob(pattern) if p.is_file() and not left & set(p.parts))
     return {p.relative_to(ROOT).as_posix() for p in paths if p.suffix not in (".pyc", ".nbi", ".nbc", ".mp4")}
 

@@ -25,7 +25,7 @@ def frozen(text, at, order, uniform, space, time, parameters):
 
 
 def _is_function(value):
-    return isinstance(value, str) or (callable(value) and not isinstance(value, (sp.Basic, type)))
+    return isinstance(value, str) or (callable(value) and not isinstance(value, sp.Basic))
 
 
 def is_lower(power, kept):

@@ -101,6 +101,9 @@ def tokens(text, variables, given=()):
             kind, value = "number", (match["number"], bool(match["imaginary"]))
         elif kind in ("word", "subscripts"):
             word, subscripts = match["word"], match["subscripts"]
+            cut = min((d for d in straight if start < d < match.end("word")), default=None)  # the x of dxdy
+            if cut is not None:
+                word, subscripts, place = word[: cut - start], "", cut
             if start in straight:
                 kind, value, place = "operator", "∂", start + 1
             elif word[0] == "Δ" and canonical(clean[start:place]) not in given:

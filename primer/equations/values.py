@@ -60,7 +60,7 @@ def _inside(system, key):
     if split_name(name)[0] in known:
         return name
     variables = system.source.variables
-    if not variables.declared:  # a place, or a derivative across, that does not matter
+    if not variables.declared and name not in ("x", "y", "z"):  # a place, or a derivative, that does not matter
         base, letters = split_name(canonical(key))
         if base in ("x", "y", "z") and not letters:
             return base
@@ -76,6 +76,7 @@ def _inside(system, key):
 
 def _exact(name, value: Any):
     """A number as a sympy one; a float stands for its shortest decimal, so that 0.1 is 1/10."""
+    value = value.item() if isinstance(value, np.ndarray) and value.ndim == 0 else value
     if isinstance(value, (bool, np.bool_)) or not isinstance(value, (numbers.Number, np.number, sp.Expr)):
         raise TypeError(f"{name} must be a number, got {shown(value)} ({type(value).__name__})")
     if isinstance(value, sp.Expr):

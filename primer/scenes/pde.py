@@ -4,13 +4,14 @@ import math
 import re
 from dataclasses import dataclass
 from functools import lru_cache
+from typing import Any
 
 import numpy as np
 
 from primer.analysis.symbol import Symbol
 from primer.analysis.symbolic import linearise, symbol
 from primer.analysis.verdict import Kind, Verdict, verdict
-from primer.checks import integer, shown
+from primer.checks import integer, real, shown
 from primer.equations.text import PDEError
 from primer.schemes.grid import Grid
 
@@ -28,7 +29,7 @@ class PDEAnswer:
 
     Attributes
     ----------
-    n              points on 2 pi, so the grid's shortest wave has xi = n/2
+    n, cut_off     points on the period, and the xi of the grid's shortest wave, n/2 on 2 pi
     has_lambda     whether ``matrix`` is M of M q = 0, with lambda inside, and not A of lambda q = A q
     matrix         rows of texts: the symbol, as :func:`primer.linearise` gives it
     xi, rate       (k,) wavenumbers |xi| and max Re lambda, in two space variables the largest of 32 directions and that
@@ -39,6 +40,7 @@ class PDEAnswer:
     """
 
     n: int
+    cut_off: float
     has_lambda: bool
     matrix: tuple
     xi: np.ndarray
@@ -49,15 +51,25 @@ class PDEAnswer:
     verdict: str
 
 
-def pde(pde: str = TOY, at: str = "u=-0.5 v_xx=0.3 eps=0.01", order: str = "full", n: int = 64) -> PDEAnswer:
-    """Is a PDE linearly ill-posed, frozen at a base state, and does a grid of spacing 2 pi/n show it?
+def pde(
+    pde: str = TOY,
+    at: str = "u=-0.5 v_xx=0.3 eps=0.01",
+    order: str = "full",
+    n: int = 64,
+    uniform: bool = False,
+    period: float = 2 * math.pi,
+) -> PDEAnswer:
+    """Is a PDE linearly ill-posed, frozen at a base state, and does a grid of spacing period/n show it?
 
     Parameters
     ----------
     pde      equations as :func:`primer.linearise` reads them, such as "u_t = -u_xx", parted by ";"
-    at       base-state values and parameters parted by blanks: "u=-0.5 eps=0.01"
+    at       base-state values and parameters parted by blanks: "u=-0.5 eps=0.01"; a function f(u) of the equations as
+             a text without blanks, "f=u^3-u"; and what the variables are called, "space=r", "space=x,z", "time=tau"
     order    "full", or "maximal": the highest derivatives alone
-    n        4 to 1024; derivatives above the second are products of the central differences of first and second order
+    uniform  whether all derivatives of the base state are 0
+    n        4 to 1024, on this period; derivatives above the second are products of the central differences of first
+             and second order
 
     Raises
     ------
@@ -69,18 +81,22 @@ def pde(pde: str = TOY, at: str = "u=-0.5 v_xx=0.3 eps=0.01", order: str = "full
             raise TypeError(f"{name} must be a text, got {shown(value)}")
     if order not in ("full", "maximal"):
         raise ValueError(f"order must be full or maximal, got {shown(order)}")
+    if not isinstance(uniform, bool):
+        raise TypeError(f"uniform must be True or False, got {shown(uniform)}")
     n = integer("n", n, least=4, most=MAX_N)
     try:
-        known = _known(pde, at, order)
+        known = _known(pde, at, order, uniform)
     except PDEError as error:
         problem = _one_line(error)
         if "has a value but does not occur" in problem:
             raise ValueError(f"{problem}: take it out of at, the base state") from None
         raise ValueError(f"pde or at cannot be used: {problem}") from None
-    grid_xi = np.geomspace(XI[0], n / 2, 121 if known.symbol.dim == 1 else 41)
-    grid_rate, finer = (_growth(known.symbol, grid_xi * m / n, known.found, m) for m in (n, 2 * n))
-    text = f"{_judged(known.found, pde, order)} {_seen(known.found, n, np.nanmax(grid_rate), np.nanmax(finer))}"
-    return PDEAnswer(n, known.has_lambda, known.matrix, XI, known.rate, grid_xi, grid_rate, known.found, text)
+    cut_off = math.pi * n / real("period", period, above=0)
+    grid_xi = np.geomspace(min(XI[0], cut_off / 10), cut_off, 121 if known.symbol.dim == 1 else 41)
+    rates = [_growth(known.symbol, grid_xi * m / n, known.found, Grid(m, period)) for m in (n, 2 * n)]
+    spacing = f"{period / math.pi:.4g}π/{n}"
+    text = f"{_judged(known.found, pde, order)} {_seen(known.found, spacing, *(np.nanmax(rate) for rate in rates))}"
+    return PDEAnswer(n, cut_off, known.has_lambda, known.matrix, XI, known.rate, grid_xi, rates[0], known.found, text)
 
 
 @dataclass(frozen=True, eq=False)
@@ -95,13 +111,20 @@ class _Known:
 
 
 @lru_cache(maxsize=16)
-def _known(pde, at, order):
-    values = read_values(at)
-    matrix = linearise(pde, at=values, order=order)
+def _known(pde, at, order, uniform):
+    found = read_values(at)
+    values = {name: value for name, value in found.items() if not isinstance(value, str)}
+    options = {name: value for name, value in found.items() if name not in values} | {"uniform": uniform}
+    matrix = linearise(pde, at=values, order=order, **options)
     missing = sorted(s.name for s in matrix.free_symbols if s.name not in _WAVES)
     if missing:
-        raise ValueError(f"at must also give a value to {', '.join(missing)}, as in {missing[0]}=1, got {shown(at)}")
-    exact = symbol(pde, at=values, order=order)
+        loose = linearise(pde, at=values, order=order, **options | {"uniform": True})
+        derived = len(loose.free_symbols) < len(matrix.free_symbols) and not uniform
+        first = "uniform must be yes if all derivatives of the base state are 0, or " if derived else ""
+        raise ValueError(
+            f"{first}at must also give a value to {', '.join(missing)}, as in {missing[0]}=1, got {shown(at)}"
+        )
+    exact = symbol(pde, at=values, order=order, **options)
     found = verdict(exact)
     has_lambda = any(s.name == "lambda" for s in matrix.free_symbols)
     texts = tuple(tuple(_written(entry) for entry in row) for row in matrix.tolist())
@@ -109,7 +132,7 @@ def _known(pde, at, order):
 
 
 def read_values(text):
-    """Name -> number from "u=-0.5 eps=0.01".
+    """Name -> number, or text, from "u=-0.5 eps=0.01 f=u^2".
 
     Raises
     ------
@@ -119,18 +142,18 @@ def read_values(text):
     for part in re.sub(r"\s*=\s*", "=", text).split():
         name, equals, value = part.partition("=")
         try:
-            number = float(value) if equals and name else None
+            number: Any = float(value) if equals and name else None
         except ValueError:
-            number = None
+            number = value if re.fullmatch(r"[^=]*[^\W\d_][^=]*", value) else None  # a function, or a variable
         if number is None or name in values:
             raise ValueError(f"at must be NAME=NUMBER parted by blanks, each name once, got {shown(part)}")
         values[name] = number
     return values
 
 
-def _growth(exact, k, found, n=None):
+def _growth(exact, k, found, grid=None):
     """max Re lambda at |xi| = k over both signs, or over directions; nan where some unknown is undetermined."""
-    pencil = exact.pencil(_multiplier(Grid(n)) if n else None)
+    pencil = exact.pencil(_multiplier(grid) if grid else None)
     if exact.dim == 1:
         xi = np.multiply.outer(k, [1.0, -1.0])
     else:
@@ -158,7 +181,7 @@ def _written(entry):
 
 def _one_line(error):
     """The message, with the place in the text in words in place of a caret."""
-    problem, *place = str(error).split("\n")
+    problem, *place = error.said("explorer").split("\n")
     if len(place) != 2:
         return problem
     rest = place[0][place[1].index("^") :].strip()
@@ -179,8 +202,8 @@ def _judged(found, pde, order):
     return f"{kind} ({text if len(text) <= 60 else text[:57] + '...'}{alone}): {reason}"
 
 
-def _seen(found, n, rate, finer):
-    grid = f"a grid of spacing 2π/{n}"
+def _seen(found, spacing, rate, finer):
+    grid = f"a grid of spacing {spacing}"
     if found.kind is not Kind.ILL_POSED:
         return f"On {grid} no wave grows faster than e^({rate:.3g} t)." if rate > 0 else f"On {grid} nothing grows."
     if not rate > 0:

@@ -175,8 +175,8 @@ def _of_a_life(problem, main, places, rises, growths, about, seed, dtype, time):
     if separates > 1e3 and bad > 2 * max(growths[-1], 0.0):
         cure = f"dt <= {limit:.3g} would do" if 0 < limit < about["dt"] else "another scheme would do"
         return Kind.SCHEME, (
-            f"The step dt = {about['dt']:g} is too large for n = {about['n']}: what does not grow of itself is amplified "
-            f"like e^({bad:.3g} t), {separates:.2g} times by the end, though nothing is lost by then; {cure}."
+            f"The step dt = {about['dt']:g} is too large for n = {about['n']}: what does not grow of itself is "
+            f"amplified like e^({bad:.3g} t), {separates:.2g} times by the end, though nothing is lost by then; {cure}."
         )
     if separates > 1e3:
         return Kind.UNSTABLE, (

@@ -25,12 +25,17 @@ class Picture:
         self.axes = np.ravel(axes)
         self._frame = self._background = None
 
+    def drawn(self, answer, looks):
+        """The axes with an answer on them."""
+        for ax in self.axes:
+            _empty(ax)
+        self._draw(self.axes, answer, **looks)
+        return self.axes
+
     def png(self, answer, looks):
         """The picture of an answer, as bytes."""
         with styled(), rc_context({"axes.titley": 1.0}):  # titles that stay where they are
-            for ax in self.axes:
-                _empty(ax)
-            self._draw(self.axes, answer, **looks)
+            self.drawn(answer, looks)
             frame = tuple((*ax.get_xlim(), *ax.get_ylim(), ax.get_xlabel(), ax.get_ylabel()) for ax in self.axes)
             if frame != self._frame:
                 self._draw_frames()

@@ -8,7 +8,7 @@ import ipywidgets as widgets
 
 from primer.checks import real, shown
 
-_LABEL, _BOX = "11em", "8.5em"  # the box holds 0.000501187
+LABEL, _BOX = "11em", "8.5em"  # the box holds 0.000501187
 _ROW = widgets.Layout(flex_flow="row wrap")  # where a page is narrow, what does not fit goes below
 
 
@@ -77,7 +77,7 @@ class Number:
         """The ``Row`` of slider and box; ``changed()`` is called once for each change that a reader makes."""
         tip = f"{self.label}: drag, or use the arrow keys"
         common = {"description": self.label, "tooltip": tip, "readout": False, "continuous_update": True}
-        wide = {"layout": widgets.Layout(flex="1 1 20em", min_width="17em"), "style": {"description_width": _LABEL}}
+        wide = {"layout": widgets.Layout(flex="1 1 20em", min_width="17em"), "style": {"description_width": LABEL}}
         if self.log:
             ends = {"min": math.log10(self.low), "max": math.log10(self.high), "step": self.step}
             slider = widgets.FloatLogSlider(self._place(self.default), **ends, **common, **wide)
@@ -176,9 +176,9 @@ class Choice:
     def build(self, changed):
         """The ``Row`` of this control, as for ``Number``."""
         menu = widgets.Dropdown(
-            options=self.options, value=self.default, description=self.label, style={"description_width": _LABEL}
+            options=self.options, value=self.default, description=self.label, style={"description_width": LABEL}
         )
-        return _watched(menu, changed)
+        return watched(menu, changed)
 
 
 @dataclass(frozen=True)
@@ -207,18 +207,18 @@ class Line:
             description=self.label,
             continuous_update=False,
             layout=widgets.Layout(flex="1 1 20em", min_width="17em", width="auto"),
-            style={"description_width": _LABEL},
+            style={"description_width": LABEL},
         )
         if self.rows == 1:
-            return _watched(box, changed)
+            return watched(box, changed)
         box.rows = self.rows
         answer = widgets.Button(
             description="answer", tooltip="or leave the box with Tab", layout=widgets.Layout(width="auto")
         )
-        return _watched(box, changed, answer)
+        return watched(box, changed, answer)
 
 
-def _watched(widget, changed, *beside):
+def watched(widget, changed, *beside):
     busy = []
 
     def show(value):

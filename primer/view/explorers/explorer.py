@@ -51,6 +51,7 @@ class Explorer:
     looks: ClassVar[tuple] = ()
     presets: ClassVar[dict]
     until: ClassVar[Callable] = staticmethod(lambda answer: math.inf)
+    _completed: ClassVar[Callable] = staticmethod(lambda values: values)  # what else they move
 
     def __init__(self, **values: Any) -> None:
         self.verdict = ""
@@ -62,7 +63,7 @@ class Explorer:
         self._said, self._image, self._copy = _outputs()
         self._copy.observe(self._restore, "value")
         self.widget = self._arranged()
-        self.set(**values)
+        self.set(**self._completed(values))
 
     @classmethod
     def from_state(cls, text: str) -> Self:
@@ -85,7 +86,7 @@ class Explorer:
         TypeError, ValueError    for a state or a value of which the explorer would say so
         """
         cls, start = (self, defaults(self._all())) if isinstance(self, type) else (type(self), self.values)
-        values = start | read_state(cls._all(), state) | cls._known(values)
+        values = start | cls._completed(read_state(cls._all(), state) | cls._known(values))
         asked, looks = cls._parted(values)
         answer = cls.answer(**asked)
         png = render(cls.layout, lambda axes: cls.draw(axes, answer, **looks))
@@ -176,7 +177,7 @@ class Explorer:
 
     def _go_to(self, state):
         """To this state, and to the default of what it leaves out."""
-        self.set(**defaults(self._all()) | read_state(self._all(), state))
+        self.set(**defaults(self._all()) | self._completed(read_state(self._all(), state)))
 
     def _restore(self, change):
         """A state was typed or pasted."""
@@ -198,12 +199,11 @@ class Explorer:
         rows = [row.widget for row in self._rows.values()]
         # The verdict below the picture: as it wraps the picture stays where it is.
         box = widgets.VBox([widgets.HTML(_STYLE), choices, *rows, self._image, self._said, self._copy])
-        box.add_class("primer-explorer")
-        return box
+        return box.add_class("primer-explorer")
 
     def _repr_mimebundle_(self, **options):
-        bundle = self.widget._repr_mimebundle_(**options)
-        data = bundle[0] if isinstance(bundle, tuple) else bundle
+        data = self.widget._repr_mimebundle_(**options)
+        data = data[0] if isinstance(data, tuple) else data
         text = f"{type(self).__name__}.from_state({self.state!r})\n{self.verdict}"
         return {**data, "text/plain": text}
 

@@ -39,7 +39,7 @@ def draw_heat(axes: Sequence[Axes], answer: HeatAnswer, t: float) -> None:
         draw_growth(growth, answer.grid_xi[i], answer.grid_rate[i], label=f"on N = {one.n}", cut_off=cut_off, **look)
     departure.plot([], [], "o", color=STEADY, ls=":", mfc="none", lw=1.4, label="foretold")
     departure.axhline(TOLERANCE, color=STEADY, ls="--", lw=1)
-    departure.axvline(t, color=STEADY, lw=0.8)
+    departure.axvline(now, color=STEADY, lw=0.8)
     departure.set(title="what grows beside sin x", xlabel="t", ylabel="size", xlim=(0, T_END), ylim=(1e-17, 1e9))
     legend_below(departure, ncols=1)
     growth.set(title="growth rate of each wave", xlim=(1, 128), ylim=(0.5, 1e5))

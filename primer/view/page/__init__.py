@@ -1,25 +1,36 @@
-"""A page that needs no installation: one HTML file, without network, in which a reader moves a and N.
+"""A page that needs no installation: one HTML file, without network, in which a reader moves an explorer's numbers.
 
-Every number on it was computed here and is looked up there: the page's script knows no equation. Bokeh draws.
+Every number on it was computed here and is looked up there: the page's script knows no equation. What it draws are the
+lines and areas that the explorer's own drawing put on axes.
 """
 
-import base64
 import json
 from dataclasses import dataclass
 from html import escape
-from importlib.util import find_spec
 from pathlib import Path
 from string import Template
 
-import numpy as np
-
 from primer import __version__
 from primer.checks import instance
-from primer.view.page.plots import LINES, plots
-from primer.view.page.states import Atlas
+from primer.view.page.atlas import Atlas
 
 _HERE = Path(__file__).parent
-_DASHES = {"solid": "none", "dashed": "6 4", "dotted": "2 3"}
+_CLOSED = (
+    " At a base state of your own the growth is computed here, from the coefficients of the characteristic polynomial, "
+    "to a millionth."
+)
+_SEEDED = (
+    " Most blow-ups are seeded by round-off, by the last bit of the computer that made the page: another one finds "
+    "slightly other times."
+)
+_OWN = """<section aria-label="A base state of your own" id="own">
+<h2>A base state of your own</h2>
+<p>The growth of the same equations, from their characteristic polynomial, at the numbers that you type.</p>
+<div class="controls" id="own-numbers"></div>
+<div class="plots"><figure aria-labelledby="own-title"><h2 id="own-title">growth of the frozen equations</h2>
+<div class="plot" id="own-plot"></div></figure></div>
+<p id="own-said" role="status"></p>
+</section>"""
 
 
 @dataclass(frozen=True)
@@ -29,118 +40,110 @@ class Page:
     html: str
 
 
-def possible():
-    """Whether pages can be made here: Bokeh is what the extra ``page`` brings."""
-    return find_spec("bokeh") is not None
-
-
 def save_page(page, path):
     """Write ``page`` to ``path``."""
-    Path(path).write_text(page.html, encoding="utf-8")
+    Path(path).write_text(page.html, encoding="utf-8", newline="\n")
 
 
-def explorer_page(states, begin, presets):
-    """The page of an :class:`primer.view.page.states.Atlas`.
+def explorer_page(atlas, title, lead, begin=None, presets=None, closed=()):
+    """The page of an :class:`primer.view.page.atlas.Atlas`, which begins with the state ``begin``.
 
-    It begins with the state ``begin``, a pair (a, n); ``presets`` maps names to such pairs.
+    ``closed`` are the closed forms (``primer.view.page.closed``) of the places of the first shelf, if there are any.
+    ``lead`` is HTML; ``presets`` maps names to states, each a dict name -> text of a place; what is left out stays as
+    it is.
 
     Raises
     ------
-    ModuleNotFoundError    without Bokeh
-    ValueError             if begin or a preset is not a state of the atlas
+    TypeError     if atlas is none
+    ValueError    if begin or a preset is not a state of the atlas
     """
-    instance("states", states, Atlas)
-    for pair in (begin, *presets.values()):
-        states.at(*pair)
-    from bokeh.embed import json_item
-    from bokeh.resources import Resources
-
-    drawn = plots()
-    library = Resources(mode="inline", components=["bokeh"], minified=True, log_level="error").js_raw
-    data = pack(states) | {
-        "begin": _places(states, *begin),
-        "plots": [json_item(plot.figure, f"{name}-plot") for name, plot in drawn.items()],
-        "paint": [row for plot in drawn.values() for row in plot.paint],
+    instance("atlas", atlas, Atlas)
+    start = [place or 0 for place in _places(atlas, begin or {})]
+    verdicts = list(dict.fromkeys(verdict for verdict, _ in atlas.states))
+    number = {verdict: k for k, verdict in enumerate(verdicts)}
+    data = {
+        "shelves": [
+            {"name": s.name, "label": s.label, "places": [text for text, _ in s.places]} for s in atlas.shelves
+        ],
+        "begin": start,
+        "states": [[number[verdict], panels] for verdict, panels in atlas.states],
+        "verdicts": verdicts,
+        "panels": list(map(json.loads, atlas.panels)),
+        "parts": list(map(json.loads, atlas.parts)),
+        "arrays": atlas.arrays,
+        "closed": closed,
     }
-    template = Template((_HERE / "page.html").read_text(encoding="utf-8"))
     return Page(
-        template.substitute(
+        Template((_HERE / "page.html").read_text(encoding="utf-8")).substitute(
+            title=escape(title),
+            lead=lead,
             style=(_HERE / "page.css").read_text(encoding="utf-8"),
             script=(_HERE / "page.js").read_text(encoding="utf-8"),
-            library="\n".join(library),
-            data=_embedded(data),
-            presets="\n".join(_button(states, name, pair) for name, pair in presets.items()),
-            **{f"{name}_key": "\n".join(_key(*each) for each in lines.items()) for name, lines in LINES.items()},
-            a_last=len(states.a) - 1,
-            n_last=len(states.n) - 1,
-            a_range=_range(states.a),
-            n_range=_range(states.n),
-            eps=f"{states.eps:g}",
+            controls="\n".join(map(_control, atlas.shelves)),
+            presets="\n".join(_button(atlas, name, state) for name, state in (presets or {}).items()),
+            plots="\n".join(map(_plot, range(len(atlas.states[0][1])))),
+            count=f"{len(atlas.states):,}",
+            closed=_CLOSED if closed else "",
+            seeded=_SEEDED if any(one.name == "t" for one in atlas.shelves) else "",
+            own=_OWN if closed else "",
             version=__version__,
+            data=_embedded(data),
         )
     )
 
 
-def pack(states):
-    """What the page looks up: a dict ready for JSON.
+def _places(atlas, state):
+    """For each shelf the place that a state says, or None."""
+    found = []
+    known = {shelf.name for shelf in atlas.shelves}
+    for name in state:
+        if name not in known:
+            raise ValueError(f"a state must be of {', '.join(sorted(known))}, got {name!r}")
+    for shelf in atlas.shelves:
+        texts = [text for text, _ in shelf.places]
+        if shelf.name in state and state[shelf.name] not in texts:
+            raise ValueError(f"{shelf.name} must be one of {', '.join(texts)}, got {state[shelf.name]!r}")
+        found.append(texts.index(state[shelf.name]) if shelf.name in state else None)
+    return found
 
-    ``states[i][j]`` names for each curve the places of its coordinates in ``arrays``, which holds each array once, as
-    base64 of little-endian float32: the numbers are rounded to 24 bits, and texts are made of the full ones.
-    """
-    arrays: dict[str, int] = {}
 
-    def place(array):
-        text = base64.b64encode(np.asarray(array, dtype="<f4").tobytes()).decode()
-        return arrays.setdefault(text, len(arrays))
+def _control(shelf):
+    name, label, texts = escape(shelf.name), escape(shelf.label), [escape(text) for text, _ in shelf.places]
+    if not _is_number(texts[0]):
+        options = "".join(f'<option value="{k}">{text}</option>' for k, text in enumerate(texts))
+        return (
+            f'<div class="control"><label for="select-{name}">{label}</label>'
+            f'<select id="select-{name}">{options}</select></div>'
+        )
+    play = f'<button type="button" id="play-{name}" aria-label="play {label}">play</button>' if shelf.look else ""
+    places = f"{texts[0]} to {texts[-1]}, {len(texts)} values"
+    return (
+        f'<div class="control"><label for="slider-{name}">{label} ({places})</label>'
+        f'<input type="range" id="slider-{name}" min="0" max="{len(texts) - 1}" step="1">'
+        f'<div class="row"><input type="text" inputmode="decimal" id="number-{name}" aria-label="{label}, as a number">'
+        f"{play}</div></div>"
+    )
 
-    packed = [
-        [
-            {
-                "kind": state.kind,
-                "verdict": state.verdict,
-                "numbers": state.numbers,
-                "labels": state.labels,
-                "alts": state.alts,
-                "curves": {
-                    name: {axis: place(values) for axis, values in curve.items()}
-                    for name, curve in state.curves.items()
-                },
-            }
-            for state in row
-        ]
-        for row in states.states
-    ]
-    return {"a": list(states.a), "n": list(states.n), "states": packed, "arrays": list(arrays)}
+
+def _is_number(text):
+    try:
+        return bool(float(text) + 1)
+    except ValueError:
+        return False
+
+
+def _button(atlas, name, state):
+    places = escape(json.dumps(_places(atlas, state)))
+    return f'<button type="button" data-at="{places}" aria-pressed="false">{escape(name)}</button>'
+
+
+def _plot(k):
+    return (
+        f'<figure aria-labelledby="title-{k}"><h2 id="title-{k}"></h2><div class="plot" id="plot-{k}"></div>'
+        f'<ul class="key" id="key-{k}" aria-label="Key"></ul></figure>'
+    )
 
 
 def _embedded(data):
     """JSON that may stand inside a script element."""
     return json.dumps(data, allow_nan=False, separators=(",", ":"), ensure_ascii=False).replace("<", "\\u003c")
-
-
-def _places(states, a, n):
-    return [states.a.index(a), states.n.index(n)]
-
-
-def _range(values):
-    return f"{values[0]:g} to {values[-1]:g}, {len(values)} values".replace("-", "\N{MINUS SIGN}")
-
-
-def _button(states, name, pair):
-    i, j = _places(states, *pair)
-    return f'<button type="button" data-a="{i}" data-n="{j}" aria-pressed="false">{escape(name)}</button>'
-
-
-def _key(name, line):
-    """A line of a plot's key: a sample of the stroke, and its label, which the script keeps up to date."""
-    stroke = f'stroke="var({line.colour})" stroke-width="{line.width}" stroke-dasharray="{_DASHES[line.dash]}"'
-    sample = {
-        "line": f'<path d="M0 7H28" {stroke}/>',
-        "upright": f'<path d="M14 0V14" {stroke}/>',
-        "dot": f'<circle cx="14" cy="7" r="4.5" fill="var({line.colour})"/>',
-        "strip": f'<rect width="28" height="14" fill="var({line.colour})" stroke="var(--steady)"/>',
-    }[line.shape]
-    return (
-        f'<li id="key-{name}"><svg width="28" height="14" aria-hidden="true">{sample}</svg>'
-        f"<span>{escape(line.label)}</span></li>"
-    )
