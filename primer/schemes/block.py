@@ -141,9 +141,14 @@ class Block:
             while self.clock[2].min() == 0 and self.clock[0].max() < asked.steps and not self.halted:
                 until = min(self.clock[0].max() + CHUNK // self.arrays["w"][0].size + 1, asked.steps)
                 self.book[BOOK["until"][0]] = until
+                self.numbers.stop = self.stop
                 self.loop(address(self.book))
                 self.numbers.raise_what_was_raised()
                 tell(self.clock[0].max())
+
+    def stop(self):
+        """Let the loop come to an end soon."""
+        self.book[BOOK["until"][0]] = 0
 
     def runs(self, interrupted=False):
         """Yield the finished runs of the members."""
@@ -170,4 +175,8 @@ def rows(state):
 
 def back(parts, dtype):
     """The state of such rows, in an array of its own."""
-    return (parts[::2] + 1j * parts[1::2]).astype(dtype) if dtype.kind == "c" else parts.copy()
+    if dtype.kind != "c":
+        return parts.copy()
+    state = np.empty((len(parts) // 2, *parts.shape[1:]), dtype)
+    state.real, state.imag = parts[::2], parts[1::2]
+    return state

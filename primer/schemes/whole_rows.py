@@ -19,7 +19,7 @@ class Numbers:
         with np.errstate(all="ignore"):  # a parameter beyond the largest number is infinite: a blow-up
             given = problem.forcing(x)
             self.known = given if isinstance(given, Known) else problem._known(given)
-        self.raised = None
+        self.raised, self.stop = None, lambda: None
         self.callback = _CALL(self._guarded)
         self.address = ctypes.cast(self.callback, ctypes.c_void_p).value
 
@@ -40,7 +40,8 @@ class Numbers:
 
     def _at(self, t):
         terms = self.problem.evolution.clocks
-        return [value(term, self.known.scalars, self.problem.parameters, t=t) for term in terms]
+        with np.errstate(all="ignore"):
+            return [value(term, self.known.scalars, self.problem.parameters, t=t) for term in terms]
 
     def form(self, fields):
         """What is complex here, where the fields are or are not."""
@@ -55,10 +56,12 @@ class Numbers:
 
     def _guarded(self, which, time):
         try:
-            if self.raised is None:
-                self._compute(which, time)
+            self._compute(which, time)
         except BaseException as error:  # ctypes would print it and go on
             self.raised = error
+            self.stop()
+            if isinstance(error, KeyboardInterrupt):  # what is being done is done to the end, and right
+                self._compute(which, time)
 
     def _compute(self, which, time):
         if which < 0:
