@@ -38,6 +38,7 @@ FLOORS = [
     "lab",
     "site",
     "run",
+    "diagnosing",
     "__main__",
 ]
 
