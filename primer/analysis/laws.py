@@ -20,7 +20,9 @@ from primer.types import ArrayLike
 
 
 class NotPolynomialError(ValueError):
-    """The entries of a pencil are not polynomials in xi, so that there is no Newton polygon."""
+    """The entries are not polynomials in xi, so that there is no Newton polygon; ``symbol`` where it is known."""
+
+    symbol: Symbol | None = None
 
 
 def growth_laws(
@@ -101,6 +103,10 @@ def exact_symbol(
             raise NotPolynomialError("the entries of the pencil are not polynomials in xi of degree 8 or less")
     else:
         exact = pde
+    if exact.operators:
+        problem = NotPolynomialError("H and absD make a symbol that is no polynomial in xi: it has no Newton polygon")
+        problem.symbol = exact
+        raise problem
     D = exact.determinant
     if not D:
         raise PDEError("the linearised equations do not determine the unknowns: det(lambda E + S) vanishes identically")

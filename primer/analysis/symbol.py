@@ -31,11 +31,13 @@ class Symbol:
     dim : int       the number of space variables
     uniform : bool  whether the coefficients are those of a base state that is uniform and steady, so that the growth of
                     an exponential is that of a perturbation; where it varies they are frozen at a point
+    operators : bool    whether the last two powers are those of the Hilbert transform and of |xi|: no polynomials then
     """
 
     entries: tuple
     dim: int = 1
     uniform: bool = True
+    operators: bool = False
 
     @cached_property
     def determinant(self):
@@ -68,7 +70,7 @@ class Symbol:
             if n:
                 E[column, place[c, n - 1]].append((1, 0, 0))
                 S[column, column].append((-1, 0, 0))
-        matrices = [_Matrix(sums, width, self.dim, multiplier) for sums in (S, E)]
+        matrices = [_Matrix(sums, width, self.dim, multiplier, self.operators) for sums in (S, E)]
         try:
             return Pencil(matrices[0], matrices[1], self.dim)
         except ValueError as singular:  # the equations do not determine the unknowns
@@ -83,6 +85,7 @@ class _Matrix:
     width: int
     dim: int
     multiplier: Multiplier | None
+    operators: bool
 
     def __call__(self, xi):
         axes = [xi] if self.dim == 1 else list(xi)
@@ -91,6 +94,9 @@ class _Matrix:
         for (r, c), terms in self.sums.items():
             for factor, *orders in terms:
                 term = factor
+                if self.operators:
+                    *orders, hilbert, moduli = orders
+                    term = term * _operated(axes, hilbert, moduli)
                 for axis, m in enumerate(orders):
                     if m:
                         if (axis, m) not in powers:
@@ -101,3 +107,9 @@ class _Matrix:
 
     def _derivative(self, xi, m):
         return self.multiplier(xi, m) if self.multiplier else 1j**m * xi**m
+
+
+def _operated(axes, hilbert, moduli):
+    """(-i sign xi)^hilbert |xi|^moduli; sums of squares are only taken where there is more than one variable."""
+    length = np.abs(axes[0]) if len(axes) == 1 else np.sqrt(sum(x**2 for x in axes))
+    return (-1j * np.sign(axes[0])) ** hilbert * length**moduli if hilbert else length**moduli

@@ -69,9 +69,12 @@ def verdict(
 def _verdict(pde, **arguments):
     try:
         exact = exact_symbol(pde, **arguments)
-    except NotPolynomialError:
-        return computed(pde)
-    found = _judged(exact) if exact.dim < 3 else _in_space(exact)
+    except NotPolynomialError as problem:
+        if problem.symbol is None:
+            return computed(pde)
+        exact, found = problem.symbol, computed(problem.symbol.pencil())
+    else:
+        found = _judged(exact) if exact.dim < 3 else _in_space(exact)
     if exact.uniform:
         return found
     note = "The base state varies: this is about short waves at a point."
