@@ -3,8 +3,8 @@
 With a = 0.5 the steady state dips below zero about x = 0. Dist(t) falls just as in the well-posed case, past the
 dashed line where u first touches zero, until the growing modes have come up from round-off: here the blow-up is of
 the grid, not of the flow. The data keep u even and v odd, the fastest growing mode has the opposite parity, and exact
-arithmetic would never excite it; so the time of the blow-up depends on the last bit and is claimed only as an
-interval.
+arithmetic would never excite that mode (without round-off the run is lost at t = 92, see exact.py); so the time of the
+blow-up depends on the last bit and is claimed only as an interval.
 """
 
 from sidecar import close, same, within
@@ -21,14 +21,13 @@ def compute():
 
 
 def numbers(run):
-    early = run.dist[run.t < 8]
     return {
         "stop": same(run.stop, "an ill-posed run on a grid that sees it"),
         "t_first_negative": close(
             run.t_first_negative, atol=2e-3, why="one or two steps of 0.001; before round-off matters"
         ),
         "dist_at_5": close(run.dist[run.t >= 5][0], rtol=1e-6, why="the decay is that of the smooth solution"),
-        "dist_least": within(early.min(), 1e-3, 0.05, "decays first: e^{-t/2} at t = 8 is 0.018"),
+        "dist_least": within(run.dist.min(), 1e-3, 0.01, "decays first: e^{-t/2} at t = 12 is 0.002"),
         "t_blow_up": within(run.t_stop, 12, 16, "seeded by round-off: 13.8 to 14.7 is usual in double precision"),
     }
 

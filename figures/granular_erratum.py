@@ -14,7 +14,7 @@ I, PHI, RATIO = 0.1, 0.55, 0.2
 def compute():
     state = BaseState(RATIO * EXAMPLE_COMPACTION.C(PHI), PHI, I)
     friction = GLASS_BEADS.friction
-    laws = CSSM(friction.mu(I), EXAMPLE_COMPACTION), CIDR(friction, EXAMPLE_COMPACTION)
+    laws = CSSM(friction.mu1, EXAMPLE_COMPACTION), CIDR(friction, EXAMPLE_COMPACTION)
     return [coefficients(law, state) for law in laws]
 
 

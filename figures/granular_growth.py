@@ -26,7 +26,7 @@ K_POLAR = 1.0
 
 def compute():
     friction = GLASS_BEADS.friction
-    mu = friction.mu(I)
+    mu = friction.mu1  # that of slow flow, as everywhere
     laws = Coulomb(mu), IncompressibleMuI(friction), CSSM(mu, EXAMPLE_COMPACTION), CIDR(friction, EXAMPLE_COMPACTION)
     state = BaseState(RATIO * EXAMPLE_COMPACTION.C(PHI), PHI, I)
     return [(law, coefficients(law, state), verdict(law, state), growth_limit(law, state) / state.D) for law in laws]

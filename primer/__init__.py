@@ -46,6 +46,7 @@ _HOME = {
     "cost_against_n": "study.cost",
     "critical_state": "granular.criteria",
     "diagnose": "study.diagnosis",
+    "exact_march": "study.exact",
     "examine": "study.examination",
     "ftcs": "schemes.ftcs",
     "ftcs_ensemble": "schemes.ensemble",

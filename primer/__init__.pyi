@@ -54,6 +54,7 @@ from .study.cost import cost_against_n as cost_against_n
 from .study.cost import work_precision as work_precision
 from .study.diagnosis import Diagnosis as Diagnosis
 from .study.diagnosis import diagnose as diagnose
+from .study.exact import exact_march as exact_march
 from .study.examination import Examination as Examination
 from .study.examination import examine as examine
 from .study.maps import blow_up_map as blow_up_map

@@ -34,7 +34,7 @@ def add_command(commands):
     sub.add_argument(
         "--set", nargs="+", action="extend", default=[], type=_assignment, metavar="NAME=VALUE", help="parameters"
     )
-    sub.add_argument("--period", type=_length, default=2 * math.pi, help="in x (default: 2*pi)")
+    sub.add_argument("--period", default="2*pi", help="in x: a number, or as here (default: 2*pi)")
     sub.add_argument("--n", type=_grids, default=(64, 128, 256), metavar="N,N,...", help="grids (default: 64,128,256)")
     sub.add_argument("--t-end", type=float, default=1.0, help="the end (default: 1)")
     sub.add_argument("--plot", type=Path, metavar="FILE", help="a picture: .svg, .png or .pdf")
@@ -45,7 +45,7 @@ def add_command(commands):
 def _run(options):
     from primer.equations.error import PDEError
     from primer.problems.pde import PDE
-    from primer.scenes.marched import data_of, in_words
+    from primer.scenes.marched import data_of, in_words, length
     from primer.study.grid_comparison import compare_grids
 
     text = sys.stdin.read() if options.pde == "-" else options.pde
@@ -54,7 +54,7 @@ def _run(options):
     if options.plot is not None:
         _check_plot(options.plot)
     try:
-        problem = PDE(text, initial, steady=steady, period=options.period, **dict(options.set))
+        problem = PDE(text, initial, steady=steady, period=length(options.period), **dict(options.set))
     except PDEError as error:
         raise ValueError(re.sub(r"as in PDE\(\.\.\., (\S+)=1\.0\)", r"as in --set \1=1", str(error))) from None
     found = compare_grids(problem, options.n, options.t_end)
@@ -129,14 +129,3 @@ def _grids(text):
         return tuple(int(part) for part in text.split(","))
     except ValueError:
         raise argparse.ArgumentTypeError(f"expected whole numbers such as 64,128,256, got {text!r}") from None
-
-
-def _length(text):
-    """A number, or a multiple of pi such as 16*pi."""
-    factor, star, pi = text.replace(" ", "").rpartition("*")
-    try:
-        if pi == "pi":
-            return float(factor if star else 1) * math.pi
-        return float(text)
-    except ValueError:
-        raise argparse.ArgumentTypeError(f"expected a number, or a multiple such as 16*pi, got {text!r}") from None

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import primer.study.effort as effort_module
-from primer import PastHorizon, Toy, reference
+from primer import FOURIER, RK8, PastHorizon, Toy, march_lines, reference
 from primer.study.contestants import Method
 from primer.study.effort import Effort, effort
 from primer.view.growth import draw_growths
@@ -30,8 +30,13 @@ def test_orders_of_accuracy(method, order):
     assert found.order == pytest.approx(order, abs=0.1)
 
 
+def agreed(t_end=5.0):
+    """What Fourier on few points makes of a = 0.5: past the first u = 0, and so no reference."""
+    return march_lines(Toy(0.5), 24, 0.05, t_end, FOURIER, RK8)
+
+
 def test_where_the_equations_are_ill_posed_more_work_is_lost():
-    for found in effort(Toy(0.5), 5.0, (32, 64, 256)):
+    for found in effort(Toy(0.5), 5.0, (32, 64, 256), against=agreed()):
         assert found.error[1] < 3e-3
         assert found.error[2] == np.inf
     for found in effort(Toy(1.5), 5.0, (64, 256)):
@@ -39,7 +44,7 @@ def test_where_the_equations_are_ill_posed_more_work_is_lost():
 
 
 def test_a_run_that_blew_up_is_drawn_as_a_cross():
-    found = effort(Toy(0.5), 5.0, (64, 256), ("FTCS", "Fourier + RK8"))
+    found = effort(Toy(0.5), 5.0, (64, 256), ("FTCS", "Fourier + RK8"), against=agreed())
     with styled():
         _, (ax, other) = new_figure()
         draw_effort(ax, found)
@@ -55,7 +60,20 @@ def test_bad_input_gets_one_sentence():
     with pytest.raises(ValueError, match="t_end must be a finite number > 0, got 0"):
         effort(Toy(1.5), 0)
     with pytest.raises(PastHorizon, match="the horizon of"):
-        effort(Toy(0.5), 50.0)
+        effort(Toy(0.5), 5.0)
+    with pytest.raises(ValueError, match="against must be a march to t_end = 5, got one to 4"):
+        effort(Toy(0.5), 5.0, against=agreed(4.0))
+    with pytest.raises(TypeError, match="against must be a Lines"):
+        effort(Toy(0.5), 5.0, against=3)
+
+
+def test_against_a_march_the_difference_is_that_of_its_interpolant():
+    toy = Toy(1.5)
+    close = march_lines(toy, 32, 0.05, 2.0, FOURIER, RK8)
+    for by_march, by_reference in zip(
+        effort(toy, 2.0, (16, 50), against=close), effort(toy, 2.0, (16, 50)), strict=True
+    ):
+        np.testing.assert_allclose(by_march.error, by_reference.error, rtol=1e-3, atol=1e-11)
 
 
 def test_the_order_is_the_slope_of_the_errors():

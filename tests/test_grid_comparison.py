@@ -9,6 +9,7 @@ from scipy.integrate import solve_ivp
 
 from primer import PDE, Toy, ftcs
 from primer.__main__ import main
+from primer.scenes.at_work import at_work
 from primer.scenes.marched import data_of, in_words, marched
 from primer.study.grid_comparison import compare_grids
 
@@ -181,3 +182,38 @@ def test_the_command_says_what_is_wrong(asked, says, capsys):
 def test_data_of():
     assert data_of("u = a; v = -sin(x)/2") == {"u": "a", "v": "-sin(x)/2"}
     assert data_of("u = 1\nv=2;") == {"u": "1", "v": "2"}
+
+
+def test_at_work_marches_with_the_parameters_of_the_base_state():
+    found = at_work("u_t = nu*u_xx", at="nu=0.5", initial="u = A*sin(x)", n=16, t_end=1.0)
+    assert found.marched is None
+    assert "A has no value" in found.verdict  # of the data, which the frozen equations do not know
+    found = at_work("u_t = nu*u_xx", at="nu=0.5", initial="u = nu*sin(x)", n=16, t_end=1.0)
+    assert found.marched.states[2][-1, 0] == pytest.approx(0.5 * math.exp(-0.5) * np.sin(found.marched.x[2]), abs=1e-3)
+
+
+def test_at_work_says_why_nothing_is_marched():
+    assert at_work("u_t = -u_xx", at="", initial="").marched is None
+    across = at_work("u_t = u_xx - u_yy", at="", initial="u = 1")
+    assert across.marched is None
+    assert "judged" in across.verdict
+    far = at_work("u_t = -u_xxxx", at="", initial="u = sin(x)", n=512, t_end=100.0)
+    assert "t_end must be at most" in far.verdict
+    for wrong, name in ({"period": "pie"}, "period"), ({"t_end": -1.0}, "t_end"), ({"n": 3}, "n"):
+        with pytest.raises(ValueError, match=name):
+            at_work("u_t = u_xx", at="", **wrong)
+
+
+def test_at_work_sees_grid_and_growth_on_one_period():
+    found = at_work(
+        "u_t = -(u^2/2)_x - u_xx - u_xxxx",
+        at="u=0",
+        uniform=True,
+        initial="u = cos(x/8)",
+        period="16*pi",
+        n=32,
+        t_end=1.0,
+    )
+    assert found.frozen.cut_off == pytest.approx(2.0)  # pi/h, h = 16 pi/32
+    assert found.marched.x[0][1] - found.marched.x[0][0] == pytest.approx(math.pi / 2)
+    assert found.frozen.grid_rate.max() == pytest.approx(0.25, abs=0.03)

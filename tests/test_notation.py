@@ -194,6 +194,8 @@ def test_names_and_numbers_that_have_a_meaning_of_their_own():
     assert growth_rates("u_t = e^2*u", 1.0, e=3) == 9
     assert growth_rates("u_t = e^2*u", 1.0).real == pytest.approx(np.exp(2))
     assert linearise("e_t = (u e)_x, u_t = e^2", at={"u": 1, "u_x": 0, "e": 3, "e_x": 0})[1, 0] in (0, 6)
+    assert growth_rates("u_t = a(u + 1)", 1.0, a=3) == growth_rates("u_t = a (u + 1)", 1.0, at={"a": 3}) == 3
+    assert growth_rates("u_t = x(1 - x) u_xx + i(u + 1)", 1.0, at={"x": 3}) == pytest.approx(6 + 1j)
     assert growth_rates("u_t = Δρ u", 1.0, Δρ=3) == 3  # a name, since it has a value
     assert growth_rates("u_t = D_x*u_xx + D_y*u_yy", [1.0, 2.0], D_x=1, D_y=2) == pytest.approx(-9)
     with pytest.raises(PDEError, match=r"lambda stands for the growth rate or the wavenumber: give lambda=..."):

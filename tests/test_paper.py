@@ -1,6 +1,7 @@
 """Guards sentences of the paper that no other test shows, in its order: each against a second route."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -8,6 +9,7 @@ from scipy.integrate import quad, solve_ivp
 from scipy.optimize import brentq
 
 from primer import Seed, Toy, ftcs
+from primer import verdict as verdict_of
 from primer.granular import (
     CIDR,
     CSSM,
@@ -27,6 +29,7 @@ from primer.granular import (
 from primer.granular.dispersion import growth_rate, growth_rates
 from primer.granular.linearisation import Coefficients, reduced
 from primer.problems.heat import abs_sin_coefficients, abs_sin_log_norms
+from primer.schemes.grid import Grid
 from primer.study.refinement import refine
 from primer.study.spectrum import growth
 
@@ -43,6 +46,60 @@ def deviator(psi):
 def norm(T):
     """(dfn-norm)."""
     return math.sqrt((T * T).sum() / 2)
+
+
+def random_flow(random):
+    """(N, e): D/||D|| of a flow in space, with N_ij N_ij = 2 and no trace, and a unit vector."""
+    D = random.normal(size=(3, 3))
+    D = D + D.T - 2 / 3 * np.trace(D) * np.eye(3)
+    e = random.normal(size=3)
+    return D / norm(D), e / np.linalg.norm(e)
+
+
+def leading_matrix(N, e, c):
+    """V of rho phi lambda u = -|xi|^2 V u: its three terms, for B = C."""
+    q = N @ e
+    b = e - c.B * q
+    return c.A * np.outer(q, q) + np.outer(b, b) / c.Gamma + c.t * (np.eye(3) + np.outer(e, e) / 3 - np.outer(q, q))
+
+
+# Section 1: what is anticipated
+
+
+def test_in_three_dimensions_the_leading_matrix_is_positive_definite():
+    """Its formula against differences of the stress -p + Y N, with p from div u = 2 f ||D||; then at random."""
+    random = np.random.default_rng(7)
+    c, phi, d, rho = coefficients(LAW, STATE), STATE.phi, STATE.d, STATE.rho
+
+    def stress(gradient):
+        D = (gradient + gradient.T) / 2
+        expansion = np.trace(D)
+        D = D - expansion / 3 * np.eye(3)
+        size = norm(D)
+
+        def off(p):
+            return LAW.f(p, phi, 2 * d * size / math.sqrt(p / rho)) - expansion / (2 * size)
+
+        p = brentq(off, 0.5 * STATE.p, 2 * STATE.p, xtol=1e-15, rtol=1e-14)
+        return -p * np.eye(3) + LAW.Y(p, phi, 2 * d * size / math.sqrt(p / rho)) * D / size
+
+    for _ in range(4):
+        N, e = random_flow(random)
+        base = c.D * N + 2 * LAW.f(STATE.p, phi, STATE.I) * c.D / 3 * np.eye(3)
+        h = 1e-5 * c.D
+        V = np.empty((3, 3))
+        for k in range(3):
+            step = h * np.outer(np.eye(3)[k], e)
+            V[:, k] = -(stress(base - step) - stress(base + step)) @ e / (2 * h)
+        np.testing.assert_allclose(V, leading_matrix(N, e, c), rtol=1e-6, atol=1e-6 * np.abs(V).max())
+    least = []
+    for _ in range(20_000):
+        A, Gamma, t = 10 ** random.uniform(-3, 3, 3)
+        some = replace(c, A=A, B=random.uniform(-2, 2), Gamma=Gamma, t=t)
+        V = leading_matrix(*random_flow(random), some)
+        least.append(np.linalg.eigvalsh(V)[0] / np.linalg.eigvalsh(V)[-1])
+    assert min(least) > -1e-13
+    assert np.quantile(least, 0.001) > 0
 
 
 # Section 2: constitutive relations
@@ -331,3 +388,27 @@ def test_finer_is_sooner():
     assert (np.diff(times) < -2).any()
     assert (np.diff(times) < -0.5).all()
     assert np.isfinite(times).all()
+
+
+def test_an_exceptional_example_frozen_ill_posed_and_well_posed():
+    """w_t = i w_xx + i beta w_x, beta = 3 cos x: the verdict at a point, the change of unknown, and differences."""
+    real = "p_t = -q_xx - b*q_x; q_t = p_xx + b*p_x"  # w = p + i q
+    frozen = verdict_of(real, b=3.0)
+    assert (frozen.kind, frozen.exponent) == ("ill-posed", 1)
+    assert frozen.coefficient == pytest.approx(3)
+
+    def largest(n, mean=0.0):
+        grid = Grid(n)
+        first, second = (grid.derivative(np.eye(n), m).T for m in (1, 2))
+        return np.linalg.eigvals(1j * second + 1j * (3 * np.cos(grid.x) + mean)[:, None] * first).real.max()
+
+    for n in (16, 32, 64, 128):  # 3h/2 < 1
+        assert abs(largest(n)) < 1e-6 * n
+        assert largest(n, mean=1.0) > 0.15 * n**0.5
+    # w = z e^{-3 sin(x)/2} makes it z_t = i z_xx - i (beta'/2 + beta^2/4) z: Schroedinger's equation, a real potential.
+    x, k = np.linspace(-3, 3, 7), 5
+    beta, bend = 3 * np.cos(x), -3 * np.sin(x)
+    w_x = 1j * k - beta / 2  # over w, as z = e^{ikx}
+    np.testing.assert_allclose(
+        1j * (w_x**2 - bend / 2) + 1j * beta * w_x, -1j * (k**2 + bend / 2 + beta**2 / 4), atol=1e-12
+    )

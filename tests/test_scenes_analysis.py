@@ -10,7 +10,7 @@ from primer import verdict as verdict_of
 from primer.granular import EXAMPLE_COMPACTION, linearise
 from primer.granular.maps import growth_map
 from primer.scenes.pde import TOY, XI, pde, read_values
-from primer.scenes.rheology import I_MAP, LAWS, PHI, RATIO_MAP, Kind, rheology, rheology_map
+from primer.scenes.rheology import LAWS, PHI, Kind, rheology, rheology_map
 from primer.schemes.grid import Grid
 from primer.view.granular_growth import classify
 
@@ -55,7 +55,7 @@ def test_the_kind_of_random_states_is_what_eigenvalues_do(law):
 def test_the_map_is_what_eigenvalues_say_on_it(law):
     known = rheology_map(law, 21.0)
     made = rheology(law).law
-    low, high = (growth_map(made, I_MAP, RATIO_MAP, EXAMPLE_COMPACTION, PHI, k) for k in (1e6, 1e8))
+    low, high = (growth_map(made, known.I, known.ratio, EXAMPLE_COMPACTION, PHI, k) for k in (1e6, 1e8))
     assert np.array_equal(known.kind, classify(low, high), equal_nan=True)
     assert np.isnan(known.kind).any() == (law in ("CSSM", "CIDR"))
 
@@ -77,6 +77,20 @@ def test_the_edges_are_where_the_verdict_changes():
     for j in (0, 20, 40):
         below, above = (rheology("CIDR", I[j], ratio[j] * (1 + step)).limit for step in (-1e-5, 1e-5))
         assert below > 0 > above
+
+
+@pytest.mark.parametrize(
+    ("law", "angle"), [("CSSM", 21.0), ("CSSM", 32.0), ("CSSM", 10.0), ("mu(I)", 21.0), ("mu(I)", 15.0)]
+)
+def test_no_cell_of_the_map_is_painted_across_a_straight_edge(law, angle):
+    """A cell reaches half-way to the next one: what is painted changes on the edge itself."""
+    known = rheology_map(law, angle)
+    axis, kinds = (known.ratio, known.kind[:, 0]) if law == "CSSM" else (known.I, known.kind[0])
+    changes = np.flatnonzero(np.diff(kinds >= 2))
+    painted = (axis[changes] + axis[changes + 1]) / 2
+    edges = [edge[1 if law == "CSSM" else 0][0] for edge in known.edges]
+    np.testing.assert_allclose(painted, edges, rtol=1e-12)
+    assert (np.diff(axis) > 0).all()
 
 
 def test_a_steep_friction_law_is_ill_posed_at_every_inertial_number_as_it_is_said():

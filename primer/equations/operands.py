@@ -46,7 +46,9 @@ def named(p):
     function = name in FUNCTIONS or name in COMPOSED
     if (function and p.at("^")) or (function and p.token.kind == "script"):
         return power_of_a_function(p, name, token)
-    if not p.at("("):
+    number = base in p.variables.inner or base in p.variables.valued - p.variables.evolved or base in ("i", "pi")
+    product = number and not by and base not in p.given  # what is a number is no function: a (u + v) is a product
+    if not p.at("(") or (product and not function):
         if function and p.begins_operand() and not p.new_line_before():
             return without_bracket(p, name, token, latex)
         if base in p.given:
@@ -67,11 +69,12 @@ def named(p):
 
 def ambiguous_call(p, token):
     """Fail at u(x) and f(u): a function or a product?"""
-    base, by, spelling, _ = token.value
+    base, by, spelling, latex = token.value
     begin = p.next
     inside = arguments(p) if p.at("(") else []
     within = p.text[p.tokens[begin].end : p.tokens[p.next - 1].place].strip()
     within = within if len(within) <= 20 else "..."
+    spelling = base if latex else spelling
     short = spelling if len(spelling) <= 30 else spelling[:27] + "..."
     if by or base in p.variables.evolved or (inside and all(n.kind == "name" and n.value in "xyzt" for n in inside)):
         function = (

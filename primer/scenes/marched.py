@@ -17,17 +17,6 @@ WORK = 3 * 10**7  # points times steps on the finest grid that a slider can wait
 _SECOND = (1.7, 2.3)  # orders that count as the second, that of central differences
 
 
-def problem_of(pde: str, initial: str, values: dict, period: float) -> PDE:
-    """The ``PDE`` of texts: ``initial`` is "u = a; v = -sin(x)/2", and of ``values`` what the texts name.
-
-    Raises
-    ------
-    ValueError    in one sentence, for data that are not of this form
-    PDEError      as of ``PDE``
-    """
-    return PDE(pde, data_of(initial), period=period, **values)
-
-
 def data_of(text: str, name: str = "initial") -> dict[str, str]:
     """Field -> text from "u = a; v = -sin(x)/2".
 
@@ -42,6 +31,23 @@ def data_of(text: str, name: str = "initial") -> dict[str, str]:
             raise ValueError(f"{name} must be FIELD = TEXT parted by ';', each field once, got {shown(part.strip())}")
         data[field] = value
     return data
+
+
+def length(text: str | float) -> float:
+    """A number above 0, or a multiple of pi such as "16*pi".
+
+    Raises
+    ------
+    ValueError    if it is neither
+    """
+    factor, star, last = str(text).replace(" ", "").rpartition("*")
+    try:
+        number = float(factor or 1) * math.pi if last == "pi" and bool(factor) == bool(star) else float(text)
+    except ValueError:
+        number = math.nan
+    if not 0 < number < math.inf:
+        raise ValueError(f"period must be a number above 0, or a multiple of pi such as 16*pi, got {shown(text)}")
+    return number
 
 
 @lru_cache(maxsize=32)
@@ -68,6 +74,8 @@ def in_words(found: GridComparison) -> str:
         return f"{lost}: other grids must tell why."
     if all(coarse > 1.1 * fine for coarse, fine in pairwise(found.lost)):
         return f"{lost}: the finer the grid the sooner, as where equations are ill posed."
+    if found.lost[-1] == math.inf:
+        return f"{lost}: the finest reaches the end, and the coarser ones are too coarse."
     if found.lost[-1] > 0.9 * found.lost[0]:
         return f"{lost}: at about the same time, which refining does not move: growth of the equations themselves."
     if np.isinf(found.lost[:-1]).any() and (np.diff(np.minimum(found.lost, 1e300)) <= 0).all():

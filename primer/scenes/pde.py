@@ -11,7 +11,7 @@ import numpy as np
 from primer.analysis.symbol import Symbol
 from primer.analysis.symbolic import linearise, symbol
 from primer.analysis.verdict import Kind, Verdict, verdict
-from primer.checks import integer, shown
+from primer.checks import integer, real, shown
 from primer.equations.text import PDEError
 from primer.schemes.grid import Grid
 
@@ -29,7 +29,7 @@ class PDEAnswer:
 
     Attributes
     ----------
-    n              points on 2 pi, so the grid's shortest wave has xi = n/2
+    n, cut_off     points on the period, and the xi of the grid's shortest wave, n/2 on 2 pi
     has_lambda     whether ``matrix`` is M of M q = 0, with lambda inside, and not A of lambda q = A q
     matrix         rows of texts: the symbol, as :func:`primer.linearise` gives it
     xi, rate       (k,) wavenumbers |xi| and max Re lambda, in two space variables the largest of 32 directions and that
@@ -40,6 +40,7 @@ class PDEAnswer:
     """
 
     n: int
+    cut_off: float
     has_lambda: bool
     matrix: tuple
     xi: np.ndarray
@@ -51,9 +52,14 @@ class PDEAnswer:
 
 
 def pde(
-    pde: str = TOY, at: str = "u=-0.5 v_xx=0.3 eps=0.01", order: str = "full", n: int = 64, uniform: bool = False
+    pde: str = TOY,
+    at: str = "u=-0.5 v_xx=0.3 eps=0.01",
+    order: str = "full",
+    n: int = 64,
+    uniform: bool = False,
+    period: float = 2 * math.pi,
 ) -> PDEAnswer:
-    """Is a PDE linearly ill-posed, frozen at a base state, and does a grid of spacing 2 pi/n show it?
+    """Is a PDE linearly ill-posed, frozen at a base state, and does a grid of spacing period/n show it?
 
     Parameters
     ----------
@@ -62,7 +68,8 @@ def pde(
              a text without blanks, "f=u^3-u"; and what the variables are called, "space=r", "space=x,z", "time=tau"
     order    "full", or "maximal": the highest derivatives alone
     uniform  whether all derivatives of the base state are 0
-    n        4 to 1024; derivatives above the second are products of the central differences of first and second order
+    n        4 to 1024, on this period; derivatives above the second are products of the central differences of first
+             and second order
 
     Raises
     ------
@@ -84,10 +91,12 @@ def pde(
         if "has a value but does not occur" in problem:
             raise ValueError(f"{problem}: take it out of at, the base state") from None
         raise ValueError(f"pde or at cannot be used: {problem}") from None
-    grid_xi = np.geomspace(XI[0], n / 2, 121 if known.symbol.dim == 1 else 41)
-    grid_rate, finer = (_growth(known.symbol, grid_xi * m / n, known.found, m) for m in (n, 2 * n))
-    text = f"{_judged(known.found, pde, order)} {_seen(known.found, n, np.nanmax(grid_rate), np.nanmax(finer))}"
-    return PDEAnswer(n, known.has_lambda, known.matrix, XI, known.rate, grid_xi, grid_rate, known.found, text)
+    cut_off = math.pi * n / real("period", period, above=0)
+    grid_xi = np.geomspace(min(XI[0], cut_off / 10), cut_off, 121 if known.symbol.dim == 1 else 41)
+    rates = [_growth(known.symbol, grid_xi * m / n, known.found, Grid(m, period)) for m in (n, 2 * n)]
+    spacing = f"{period / math.pi:.4g}π/{n}"
+    text = f"{_judged(known.found, pde, order)} {_seen(known.found, spacing, *(np.nanmax(rate) for rate in rates))}"
+    return PDEAnswer(n, cut_off, known.has_lambda, known.matrix, XI, known.rate, grid_xi, rates[0], known.found, text)
 
 
 @dataclass(frozen=True, eq=False)
@@ -142,9 +151,9 @@ def read_values(text):
     return values
 
 
-def _growth(exact, k, found, n=None):
+def _growth(exact, k, found, grid=None):
     """max Re lambda at |xi| = k over both signs, or over directions; nan where some unknown is undetermined."""
-    pencil = exact.pencil(_multiplier(Grid(n)) if n else None)
+    pencil = exact.pencil(_multiplier(grid) if grid else None)
     if exact.dim == 1:
         xi = np.multiply.outer(k, [1.0, -1.0])
     else:
@@ -193,8 +202,8 @@ def _judged(found, pde, order):
     return f"{kind} ({text if len(text) <= 60 else text[:57] + '...'}{alone}): {reason}"
 
 
-def _seen(found, n, rate, finer):
-    grid = f"a grid of spacing 2π/{n}"
+def _seen(found, spacing, rate, finer):
+    grid = f"a grid of spacing {spacing}"
     if found.kind is not Kind.ILL_POSED:
         return f"On {grid} no wave grows faster than e^({rate:.3g} t)." if rate > 0 else f"On {grid} nothing grows."
     if not rate > 0:

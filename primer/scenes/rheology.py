@@ -48,7 +48,7 @@ class RheologyMap:
     Attributes
     ----------
     I : array of shape (n,)            inertial numbers
-    ratio : array of shape (m,)        p/C(phi)
+    ratio : array of shape (m,)        p/C(phi); a straight edge lies half-way between two of them, or two of I
     kind : array of shape (m, n)       0 damped, 1 unstable and bounded, 2 ill posed like |xi| (or |xi|^(2/3)), 3 ill
                                        posed like |xi|^2, as ``primer.view.granular_growth.KINDS``; nan if not admitted
     edges : tuple of pairs of arrays   curves (I, ratio) on which that changes, in closed form
@@ -132,23 +132,35 @@ def rheology_map(law, angle):
     """The ``RheologyMap`` of a law of LAWS, from closed forms, and kept, since I and p do not change it."""
     made = _made(law, angle)
     shape = RATIO_MAP.size, I_MAP.size
-    I, p = np.broadcast_arrays(I_MAP, RATIO_MAP[:, None] * EXAMPLE_COMPACTION.C(PHI))
+    I_axis = _straddling(I_MAP, _neutral(angle) if law == "mu(I)" else ())
+    axis = _straddling(RATIO_MAP, _expanding(angle) if law == "CSSM" else ())
+    I, p = np.broadcast_arrays(I_axis, axis[:, None] * EXAMPLE_COMPACTION.C(PHI))
     inside = made.Y(p, PHI, I) > 0
     lead = leading(coefficients(made, BaseState(p[inside], PHI, I[inside])))
     kind = np.full(shape, np.nan)
     kind[inside] = np.where(lead.ill_posed, np.where(lead.exponent > 1.5, 3.0, 2.0), np.where(lead.limit > 0, 1.0, 0.0))
     ends = RATIO_MAP[[0, -1]]
-    top = np.full(I_MAP.shape, np.inf)
+    top = np.full(I_axis.shape, np.inf)
     edges: tuple = ()
     if law == "mu(I)":
         edges = tuple((np.full(2, value), ends) for value in _neutral(angle))
     if law == "CSSM":
-        edges = tuple((I_MAP[[0, -1]], np.full(2, ratio)) for ratio in _expanding(angle) if ratio > ends[0])
+        edges = tuple((I_axis[[0, -1]], np.full(2, ratio)) for ratio in _expanding(angle) if ratio > ends[0])
     if law == "CIDR":
-        edges = ((I_MAP, made.friction.alpha(I_MAP) - neutral_stress_ratio(made.friction, I_MAP)),)
+        edges = ((I_axis, made.friction.alpha(I_axis) - neutral_stress_ratio(made.friction, I_axis)),)
     if not made.incompressible:
-        top = made.p_max(PHI, I_MAP) / EXAMPLE_COMPACTION.C(PHI)
-    return RheologyMap(I_MAP, RATIO_MAP, kind, edges, top)
+        top = made.p_max(PHI, I_axis) / EXAMPLE_COMPACTION.C(PHI)
+    return RheologyMap(I_axis, axis, kind, edges, top)
+
+
+def _straddling(axis, edges):
+    """The axis with the two neighbours of each edge moved to either side of it, so that cells meet at the edge."""
+    axis = axis.copy()
+    for edge in edges:
+        i = np.searchsorted(axis, edge)
+        if 0 < i < axis.size:
+            axis[i - 1 : i + 1] = edge + np.array([-0.5, 0.5]) * (axis[i] - axis[i - 1])
+    return axis
 
 
 def _made(law, angle):

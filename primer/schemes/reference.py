@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field
+from decimal import ROUND_FLOOR, Context
 from functools import lru_cache
 
 import numpy as np
@@ -12,6 +14,7 @@ from primer.problems.toy import Toy
 from primer.schemes.fourier import FOURIER, interpolate, transfer
 from primer.schemes.grid import Grid
 from primer.schemes.lines import MAX_STEPS, stable_step, trace
+from primer.schemes.positive import certain, least
 from primer.schemes.runge_kutta import RK8
 from primer.types import ArrayLike
 
@@ -23,20 +26,23 @@ _MORE_STEPS = 1.3  # of the second march: an eighth of the first one's error in 
 _SAFETY = 2  # by which the difference of the two marches is multiplied
 _ROUND_OFF = 32 * np.finfo(float).eps  # times |a| + 2: about four times the largest error that was all round-off
 _TIMES = 10**5  # at which the fields of both marches fit into a gigabyte
-_LOOK_AHEAD = 100.0  # time (the paper's longest) up to which an ill-posed case is searched for its horizon
+_PATIENCE = 1e8  # steps times points squared, some seconds: past this the first u = 0 is not asked for more exactly
+_LOOK_AHEAD = 4.0  # time up to which it is asked when u first touches 0: it swings lowest at t = 3
+_NEVER = 1.25  # u >= a - 1.1911 at eps = 0, and diffusion takes from the swing: from this a on it is not asked
 
 
 class PastHorizon(ArithmeticError):
-    """There is no trustworthy answer at the time asked for; ``horizon`` is the time up to which there is one.
+    """There is no answer to stand behind at the time asked for; ``horizon`` is a time at which there is one.
 
-    Where u < 0 in eq. (toy-pde) the answer is lost sooner or later, Hadamard's third condition (A2.1).
+    Where u < 0 eq. (toy-pde) is ill posed, and Hadamard's conditions (A2.1) fail, the first among them: it is not known
+    whether there is a solution at all.
 
     >>> from primer import Toy, reference
     >>> try:
-    ...     reference(Toy(-1.0), 50.0)
+    ...     reference(Toy(0.5), 5.0)
     ... except PastHorizon as refusal:
-    ...     print(refusal.horizon < 50)
-    True
+    ...     print(f"{refusal.horizon:.4f}", reference(Toy(0.5), refusal.horizon).error < 1e-10)
+    0.8259 [ True]
     """
 
     def __init__(self, message: str, horizon: float) -> None:
@@ -58,8 +64,8 @@ class Reference:
     t           (m,) the times, as they were given
     u, v        (m, n) the fields
     error       (m,) estimates of the largest error of u and v at each time
-    horizon     the time up to which the answer was found to hold: the last of t; or, where u < 0 makes the equations
-                ill posed, as far as it goes (looked for up to t = 100, or the last of t if that is later)
+    horizon     the time up to which there is an answer: the last of t; or, where u comes to touch 0 (looked for up to
+                t = 4, or the last of t if that is later), that time, less its error bar
 
     The solution of eq. (toy-pde), with an error bar.
 
@@ -94,13 +100,14 @@ def reference(toy: Toy, t: ArrayLike, tol: float = 1e-10) -> Reference:
 
     Fourier collocation in space and the fixed step ``RK8`` in time. The march is made twice, the second time with at
     least a third more points and three tenths more steps; their difference, times 2, estimates the error of the first,
-    which is the answer. Round-off adds 32 units in the last place of |a| + 2, times e^{eps k^2 S}: k = m/2 is the top
-    wavenumber on the second march's m points and S(t) the integral of max(0, -min u), so that the factor is what the
-    principal part of eq. (toy-mat) makes of that wave where u < 0. Points are added until the estimate is below tol,
-    that is until the spectrum has decayed.
+    which is the answer. Round-off adds 32 units in the last place of |a| + 2. Points are added until the estimate is
+    below tol, that is until the spectrum has decayed.
 
-    In a well-posed case that is soon. Where u < 0, e^{eps k^2 S} grows without bound in time and, what is worse, in k:
-    more points come to cost more than they bring, and there is a horizon. Past it, no array is returned.
+    For eps > 0 all this is for times up to which u >= 0 everywhere, and no longer. As soon as u < 0 somewhere, wave k
+    grows there like e^{eps k^2 |u| t}, while the solution's coefficients fall only exponentially with k: for k large
+    enough the growth wins, however soon after. Two grids too coarse to hold such waves agree as well as ever, on
+    something that is no solution: the paper's scheme without any round-off (``exact_march``) blows up, the sooner the
+    finer the grid. At eps = 0 there is no such limit; the solution is eq. (toy-sln).
 
     Parameters
     ----------
@@ -114,7 +121,8 @@ def reference(toy: Toy, t: ArrayLike, tol: float = 1e-10) -> Reference:
 
     Raises
     ------
-    PastHorizon              if no answer within tol can be had at one of the times; ``.horizon`` says up to when it can
+    PastHorizon              if one of the times lies past the first u = 0 (less the error bar of that time), or if no
+                             answer within tol can be had; at ``.horizon`` one can
     TypeError, ValueError    in one sentence, for an argument that is not allowed, or a march of more than 10^7 steps
 
     >>> toy = Toy(1.5, eps=0)
@@ -128,25 +136,23 @@ def reference(toy: Toy, t: ArrayLike, tol: float = 1e-10) -> Reference:
     if tol < 4 * _round_off(toy):
         raise ValueError(f"tol must be >= {4 * _round_off(toy):.1e} for a = {toy.a:g} in double precision, got {tol!r}")
     times, place = (t, slice(None)) if t.size == 1 else np.unique(t, return_inverse=True)
-    ill_posed = toy.eps > 0 and toy.a < 1  # now or later: the steady state is negative somewhere
-    rung, horizon = _first(tol), 0.0
-    while not ill_posed:
-        states, error, depth = _attempt(toy, times, tol / 4 ** (rung - _first(tol)), rung)
-        good = _good(error, tol)
-        horizon = max(horizon, times[good - 1] if good else 0.0)
-        ill_posed = toy.eps > 0 and depth[-1] != 0
-        if good == len(times) or ill_posed:
-            break
-        rung += 1
-        if rung == len(_POINTS) - 1:
-            raise _past(toy, times[-1], tol, horizon)
-    if ill_posed:
-        rung, horizon = _farthest(toy, tol, max(_LOOK_AHEAD, times[-1]))
-        if times[-1] > horizon:
-            raise _past(toy, times[-1], tol, horizon)
-        states, error, _ = _attempt(toy, times, tol / 16, rung)
+    end, touch = times[-1], math.inf
+    if toy.eps > 0 and toy.a < _NEVER:
+        touch = _touch(toy, max(_LOOK_AHEAD, end))
+        if end > touch:
+            raise _past(toy, end, tol, touch, _WHY)
+    states, error, good, below = _best(toy, times, tol)
+    if below and toy.eps > 0 and toy.a >= _NEVER and end > (touch := _touch(toy, end)):
+        raise _past(toy, end, tol, touch, _WHY)
+    if good < len(times):
+        raise _past(toy, end, tol, times[good - 1] if good else 0.0, "the spectrum is too long for 128 points")
     u, v = states[:, 0][place], states[:, 1][place]
-    return Reference(toy, tol, Grid(u.shape[-1]).x, t, u, v, error[place], float(horizon))
+    return Reference(toy, tol, Grid(u.shape[-1]).x, t, u, v, error[place], float(touch if touch < math.inf else end))
+
+
+_WHY = (
+    "u first touches 0, where the equations become ill posed: past that time it is not known that there is a solution"
+)
 
 
 def _times(t: ArrayLike) -> np.ndarray:
@@ -158,12 +164,50 @@ def _times(t: ArrayLike) -> np.ndarray:
     return times
 
 
-def _past(toy, t, tol, horizon):
+def _past(toy, t, tol, candidate, why):
+    """The refusal, whose horizon is rounded down to what is printed and then held to be accepted itself."""
+    horizon = float(Context(prec=6, rounding=ROUND_FLOOR).create_decimal(float(candidate)))
+    while horizon > 0 and not _accepted(toy, horizon, tol):
+        horizon *= 0.9
     return PastHorizon(
-        f"t must be <= {horizon:.6g}, the horizon of {toy} at tol = {tol:g}, got {t:.6g}: past it neither more "
-        "points nor fewer give an answer to stand behind",
-        float(horizon),
+        f"t must be <= {horizon!r}, the horizon of {toy} at tol = {tol:g}, got {t:.6g}: there {why}", horizon
     )
+
+
+def _accepted(toy, t, tol):
+    return _best(toy, np.array([t]), tol)[2] == 1
+
+
+@lru_cache(maxsize=256)
+def _touch(toy, until):
+    """The time up to which u > 0 for certain, by the grid that can tell longest; infinite if that is ``until``."""
+    if toy.a <= 0:
+        return 0.0
+    reached, tol = 0.0, 4 * _round_off(toy)
+    for rung in range(1, len(_POINTS) - 1):
+
+        def margin(times, rung=rung):
+            states, error, _ = _attempt(toy, times, tol, rung)
+            return np.nan_to_num(least(states[:, 0]) - error, nan=-1.0, posinf=-1.0, neginf=-1.0)
+
+        before, reached = reached, max(reached, certain(margin, until))
+        if reached == until:
+            return math.inf
+        n = _POINTS[min(rung + 2, len(_POINTS) - 1)]
+        if 0 < before >= reached * (1 - 1e-8) or reached / _step(toy, tol, n) * n * n > _PATIENCE:
+            break
+    return reached
+
+
+def _best(toy, times, tol):
+    """(states, error, how many times are good, whether u < 0 was met), with as many points as it takes."""
+    most, first = 0, _first(tol)
+    for rung in range(first, len(_POINTS) - 1):
+        states, error, below = _attempt(toy, times, tol / 4 ** (rung - first), rung)
+        most = max(most, _good(error, tol))
+        if most == len(times):
+            break
+    return states, error, most, below
 
 
 def _first(tol):
@@ -182,7 +226,7 @@ def _round_off(toy):
 
 
 def _attempt(toy, times, tol, rung):
-    """(states (m, 2, n), error (m,), depth (m,)) at ascending times, on the n points of a rung, judged by the next."""
+    """(states (m, 2, n), error (m,), whether u < 0) at ascending times, on a rung's n points, judged by the next."""
     n, finer = _POINTS[rung], _POINTS[rung + 1]
     step, finer_step = _step(toy, tol, n), _step(toy, tol, finer)
     if times[-1] > MAX_STEPS * finer_step:
@@ -194,8 +238,7 @@ def _attempt(toy, times, tol, rung):
     states, _ = _trace(toy, n, gaps, few)
     judge, depth = _trace(toy, finer, gaps, many)
     apart = np.abs(states @ transfer(n, finer) - judge).max(axis=(1, 2))
-    hadamard = np.exp(np.minimum(toy.eps * (finer / 2) ** 2 * depth, 700.0))
-    return states, _SAFETY * apart + _round_off(toy) * hadamard, depth
+    return states, _SAFETY * apart + _round_off(toy), depth[-1] != 0
 
 
 def _trace(toy, n, gaps, counts):
@@ -205,28 +248,3 @@ def _trace(toy, n, gaps, counts):
 def _step(toy, tol, n):
     """The step for n points: within the region of stability, and accurate to tol."""
     return min(stable_step(toy, n, FOURIER, RK8), _STEP * (tol / _STEP_TOL) ** (1 / RK8.order))
-
-
-@lru_cache(maxsize=256)
-def _farthest(toy, tol, until):
-    """(rung, horizon): the resolution whose answer holds longest, and how long; looked for up to ``until``."""
-    best, reached = _first(tol), -1.0
-    for rung in range(_first(tol), len(_POINTS) - 1):
-        horizon = _holds(toy, tol, until, rung)
-        if horizon > reached:
-            best, reached = rung, horizon
-        if horizon < reached or horizon >= until:
-            break
-    return best, reached
-
-
-def _holds(toy, tol, until, rung):
-    """Up to which time the answer of one resolution holds, to about one part in 64."""
-    span = _step(toy, tol, _POINTS[rung])
-    while True:
-        times = np.linspace(0, span, 65)
-        _, error, _ = _attempt(toy, times, tol / 16, rung)  # the step apart, which is cheap, should not decide
-        good = _good(error, tol)
-        if good < len(times) or span >= until:
-            return float(min(times[max(good, 1) - 1], until))
-        span *= 2

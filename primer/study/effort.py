@@ -6,7 +6,9 @@ import numpy as np
 
 from primer.checks import instance, real, sequence, shown
 from primer.problems.toy import Toy
+from primer.schemes.fourier import interpolate
 from primer.schemes.grid import grids
+from primer.schemes.lines import Lines
 from primer.schemes.reference import reference
 from primer.study.contestants import contestants
 
@@ -23,7 +25,7 @@ class Effort:
     method    its name
     n, dt     (k,) grid points and steps
     work      (k,) n times the evaluations of the right-hand side from 0 to t_end
-    error     (k,) largest error of u and v at t_end, infinite after a blow-up
+    error     (k,) largest error of u and v at t_end, or largest difference from ``against``; infinite after a blow-up
     """
 
     method: str
@@ -38,7 +40,7 @@ class Effort:
         return -float(np.polyfit(np.log(self.n), np.log(self.error), 1)[0])
 
 
-def effort(toy, t_end=5.0, ns=_GRIDS, methods=METHODS, tol=1e-12):
+def effort(toy, t_end=5.0, ns=_GRIDS, methods=METHODS, tol=1e-12, against=None):
     """March ``toy`` to t_end on the grids ``ns`` by several methods; compare the errors and the work.
 
     Work leaves out what an evaluation costs at a point: some operations for differences, about 2 n for Fourier. Steps
@@ -50,6 +52,7 @@ def effort(toy, t_end=5.0, ns=_GRIDS, methods=METHODS, tol=1e-12):
     ns            grids, each of n >= 4 points
     methods       names of ``contestants()`` whose knob is n and whose steps are fixed
     tol           of the ``reference`` that errors are measured against
+    against       a ``Lines`` at t_end to take differences from instead, where there is no reference
 
     Returns
     -------
@@ -57,7 +60,7 @@ def effort(toy, t_end=5.0, ns=_GRIDS, methods=METHODS, tol=1e-12):
 
     Raises
     ------
-    PastHorizon              if there is no reference at t_end: a case too ill posed to speak of errors
+    PastHorizon              if there is no reference at t_end: one cannot speak of errors past the first u = 0
     TypeError, ValueError    for an argument that is not allowed
     """
     instance("toy", toy, Toy)
@@ -66,8 +69,21 @@ def effort(toy, t_end=5.0, ns=_GRIDS, methods=METHODS, tol=1e-12):
     for name in sequence("methods", methods, "names"):
         if not isinstance(name, str) or name not in known:
             raise ValueError(f"methods must be of {', '.join(known)}, got {shown(name)}")
-    truth = reference(toy, t_end, tol)
+    if against is not None and instance("against", against, Lines).t != t_end:
+        raise ValueError(f"against must be a march to t_end = {t_end:g}, got one to {against.t:g}")
+    truth = reference(toy, t_end, tol) if against is None else _Marched(against.final)
     return tuple(_march(toy, t_end, ns, known[name], truth) for name in methods)
+
+
+@dataclass(frozen=True, eq=False)
+class _Marched:
+    """The fields of a march in place of a reference."""
+
+    final: tuple[np.ndarray, ...]
+
+    def at(self, x):
+        """(u, v) at x, each of shape (1,) + the shape of x."""
+        return tuple(interpolate(f[None], x) for f in self.final)
 
 
 def _march(toy, t_end, ns, method, truth):

@@ -46,11 +46,12 @@ class Forecast:
     t_first_negative: float | None
 
 
-def forecast(toy, n, dt, t_end, seed=None, epsilon=2.0**-52, blow_up_at=1e3, locks=True):
+def forecast(toy, n, dt, t_end, seed=None, epsilon=2.0**-52, blow_up_at=1e3, locks=True, smooth_too=True):
     """March the smooth solution and its perturbations towards ``t_end``; see :class:`Forecast`.
 
     ``seed`` is a ``Seed`` or None, ``epsilon`` the distance from 1 to the next number of the run's arithmetic, and
-    ``locks`` whether a change that is lost in the last bit is lost.
+    ``locks`` whether a change that is lost in the last bit is lost, and ``smooth_too`` whether what is left of the
+    smooth solution as it comes to rest is a perturbation too; it is known to double precision only.
     """
     smooth = _Smooth(toy, n)
     waves = _Waves(toy, n, seed, epsilon)
@@ -70,7 +71,9 @@ def forecast(toy, n, dt, t_end, seed=None, epsilon=2.0**-52, blow_up_at=1e3, loc
             return Forecast(t + left, cause == _SEED, cause == _SMOOTH, t_negative)
         if away < _SETTLED and not smooth.still:  # from here on the linear equations serve for everything
             t_still = t
-            waves.take(smooth.settle())
+            left = smooth.settle()
+            if smooth_too:
+                waves.take(left)
             solvers = None
         if solvers is None or m != solvers[0] or not smooth.still:
             solvers = m, [half.factored(toy.eps, smooth.u, smooth.v_xx, (m - 1) / 2 * dt) for half in waves.halves]

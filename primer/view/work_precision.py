@@ -56,14 +56,14 @@ def draw_work_precision(ax, study):
     return artists
 
 
-def draw_effort(ax, efforts, top=10.0):
+def draw_effort(ax, efforts, top=10.0, ylabel="largest error of u and v"):
     """Max-norm error at t_end over work, one line an ``Effort``; a run that blew up is a cross at the upper edge."""
     for effort in efforts:
         lives = np.isfinite(effort.error)
         ax.loglog(effort.work[lives], effort.error[lives], label=effort.method, **_look(effort.method))
         lost = effort.work[~lives]
         ax.loglog(lost, np.full(lost.size, top), "x", color=_look(effort.method)["color"], ms=7, clip_on=False)
-    ax.set(xlabel="work: points times evaluations", ylabel="largest error of u and v", ylim=(1e-18, top))
+    ax.set(xlabel="work: points times evaluations", ylabel=ylabel, ylim=(1e-18, top))
     legend_below(ax)
 
 
