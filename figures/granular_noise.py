@@ -22,7 +22,7 @@ GRIDS, SIDE, STRAIN = (32, 64, 128), 200.0, 0.06
 
 def compute():
     friction, packing = GLASS_BEADS.friction, EXAMPLE_COMPACTION
-    mu = friction.mu1  # that of slow flow, as everywhere
+    mu = friction.mu(I)
     laws = Coulomb(mu), IncompressibleMuI(friction), CSSM(mu, packing), CIDR(friction, packing)
     state = BaseState(RATIO * packing.C(PHI), PHI, I)
     t = STRAIN / state.D

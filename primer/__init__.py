@@ -41,7 +41,7 @@ _HOME = {
     "Seed": "schemes.run",
     "Stop": "schemes.run",
     "Toy": "problems.toy",
-    "Verdict": "analysis.verdict",
+    "Verdict": "analysis.outcome",
     "blow_up_map": "study.maps",
     "cost_against_n": "study.cost",
     "critical_state": "granular.criteria",

@@ -12,11 +12,11 @@ from . import view as view
 from .analysis.directions import MaxGrowth as MaxGrowth
 from .analysis.directions import max_growth as max_growth
 from .analysis.laws import growth_laws as growth_laws
+from .analysis.outcome import Verdict as Verdict
 from .analysis.pencil import Pencil as Pencil
 from .analysis.pencil import growth as growth
 from .analysis.symbolic import growth_rates as growth_rates
 from .analysis.symbolic import linearise as linearise
-from .analysis.verdict import Verdict as Verdict
 from .analysis.verdict import verdict as verdict
 from .equations.error import PDEError as PDEError
 from .granular.compaction import Compaction as Compaction

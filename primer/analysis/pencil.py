@@ -25,8 +25,8 @@ class Pencil:
     S : callable, constant array, or sympy Matrix in the symbols xi, or xi_1 and xi_2
         ``S(xi)`` is the k x k symbol. In one space variable xi is a number or an array of shape s; in two it has its
         component axis *first*, shape (2,) + s, so that ``xi1, xi2 = xi`` works for one wavevector and for many. S
-        returns shape s + (k, k); one that can only serve a single wavevector (a nested list of scalars, say) is called
-        once for each.
+        returns shape s + (k, k), or nested lists whose entries are of shape s or numbers; one that can only serve a
+        single wavevector is called once for each.
     E : array of shape (k, k), or a callable of xi like S
         the coefficients of the time derivatives. It may be singular: a row of zeros is a constraint (div u = 0).
     dim : int
@@ -99,7 +99,7 @@ class Pencil:
         shape = xi.shape if self.dim == 1 else xi.shape[1:]
         flat = xi.reshape(-1) if self.dim == 1 else xi.reshape(2, -1)
         affordable("xi: the matrices of all wavevectors", 128 * flat.shape[-1] * self.size**2, f"shape {xi.shape}")
-        with np.errstate(over="ignore", invalid="ignore"):
+        with np.errstate(all="ignore"):
             S, E = (self._values(name, flat).reshape(*shape, self.size, self.size) for name in ("S", "E"))
         if not (_moderate(S) and _moderate(E)):
             raise ValueError(f"xi must leave S and E finite, and below {_BEYOND:g}, got {shown(xi)}")
@@ -117,7 +117,7 @@ class Pencil:
         if not callable(f):
             return np.broadcast_to(f, (n, *f.shape))
         if self._vectorised[name]:
-            return np.asarray(f(xi), dtype=complex)
+            return _together(f, xi)
         values = [np.asarray(f(xi[..., j]), dtype=complex) for j in range(n)]
         return np.array(values).reshape(n, self.size, self.size)
 
@@ -201,11 +201,20 @@ def _moderate(values):
     return bool((np.abs(values) < _BEYOND).all())
 
 
+def _together(f, xi):
+    """What f gives for many wavevectors at once; in nested lists each entry is a number, or an array of them."""
+    value = f(xi)
+    if not isinstance(value, (list, tuple)):
+        return np.asarray(value, dtype=complex)
+    entries = [[np.broadcast_to(np.asarray(x, dtype=complex), xi.shape[-1:]) for x in row] for row in value]
+    return np.moveaxis(np.array(entries), -1, 0)
+
+
 def _serves_many(f, xi):
     """Whether f gives the same matrices for many wavevectors at once as one by one."""
     one_by_one = np.array([np.asarray(f(xi[..., j]), dtype=complex) for j in range(xi.shape[-1])])
     try:
-        together = np.asarray(f(xi), dtype=complex)
+        together = _together(f, xi)
     except Exception:  # any complaint of a function written for one wavevector
         return False
     return together.shape == one_by_one.shape and np.allclose(together, one_by_one, rtol=1e-12, atol=0)

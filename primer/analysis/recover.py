@@ -21,16 +21,26 @@ def recovered(pencil):
     for half in HALF_DEGREES:
         node = np.arange(-half, half + 1) / half
         axes = np.meshgrid(*[node] * pencil.dim, indexing="ij")
-        S, E = pencil.matrices(axes[0] if pencil.dim == 1 else np.stack(axes))
+        try:
+            S, E = pencil.matrices(axes[0] if pencil.dim == 1 else np.stack(axes))
+        except (ValueError, ArithmeticError):  # not a number there, as 1/(1 - xi^2) at 1
+            return None
         inverse = np.linalg.inv(np.vander(node, increasing=True))
         tables = []
         for values in (S, E):
             for axis in range(pencil.dim):
                 values = np.moveaxis(np.tensordot(inverse, values, axes=(1, axis)), 0, axis)
             tables.append(_without_noise(values if pencil.dim == 2 else values[:, None]))
-        if all(_fits(pencil, tables, (pencil.probe.T * scale).T) for scale in product(SCALES, repeat=pencil.dim)):
+        if _fits_far(pencil, tables):
             return _symbol(tables, pencil)
     return None
+
+
+def _fits_far(pencil, tables):
+    try:
+        return all(_fits(pencil, tables, (pencil.probe.T * scale).T) for scale in product(SCALES, repeat=pencil.dim))
+    except (ValueError, ArithmeticError):  # beyond all numbers, as exp(xi)
+        return False
 
 
 def _without_noise(table):

@@ -1,8 +1,7 @@
 """The verdict: does the growth of short waves stay bounded? (Section A2.1 of the paper.)"""
 
 import math
-from dataclasses import dataclass, replace
-from enum import StrEnum
+from dataclasses import replace
 from fractions import Fraction
 from typing import Any
 
@@ -12,73 +11,15 @@ import numpy as np
 from primer.analysis.directions import max_growth
 from primer.analysis.drift import BEYOND, worst_law
 from primer.analysis.each import each
+from primer.analysis.fitted import computed
 from primer.analysis.laws import NotPolynomialError, exact_symbol
 from primer.analysis.loss import loss
+from primer.analysis.outcome import Kind, Verdict, undecided
 from primer.analysis.poles import of_law, on_curves
 from primer.analysis.puiseux import branches
 from primer.analysis.roots import DIGITS
 from primer.analysis.scales import scales
 from primer.analysis.supremum import along_line, exact_growth, in_plane, rate, ray
-
-
-class Kind(StrEnum):
-    """What the test can say."""
-
-    WELL_POSED = "well-posed"
-    ILL_POSED = "ill-posed"
-    UNDECIDED = "undecided"
-
-
-@dataclass(frozen=True)
-class Verdict:
-    """The outcome of the test for linear ill-posedness.
-
-    Attributes
-    ----------
-    kind : Kind
-        "ill-posed" if limsup Re lambda = +infinity as |xi| -> infinity, "well-posed" if Re lambda is bounded from above
-        (linearly, in the paper's sense), or "undecided"
-    exponent : Fraction
-    coefficient : float
-        the largest growth, over branches and directions, is Re lambda ~ coefficient |xi|^exponent as |xi| -> infinity.
-        For a well-posed system that is the branch that decays least; both are 0 where Re lambda is. nan if undecided
-    direction : tuple
-        the unit vector to which xi/|xi| tends there; in one space variable (1.0,) or (-1.0,)
-    bound : float
-        the supremum of Re lambda over all xi: inf if ill-posed, nan if undecided
-    unstable : bool
-        whether the base state is unstable: something grows, bound > 0, and the base state is uniform and steady. Where
-        it varies in space or time, coefficients are frozen at a point; growth there is not instability of the state
-    reason : str
-        in words
-    loss : Fraction
-        0 where well-posedness is strong, else the power of |xi| by which bounded data may grow in a time of order one:
-        then it is weak, and lower-order terms can make it ill-posed. Every unknown counts alike, its j-th time
-        derivative divided by |xi|^(jq), q the power of the fastest branch; unknowns without a time derivative are no
-        data. inf if ill-posed; nan if undecided, or where the reason says that it was not decided
-
-    The definition of linear ill-posedness is that of section A2.1.
-
-    >>> print(verdict("u_t = u_x + v_x; v_t = v_x").loss)  # exp(t A) grows like |xi| t, though no eigenvalue does
-    1
-    >>> found = verdict("u_t = -u_xx - u_xxxx")
-    >>> print(found.kind, found.unstable, found.bound)  # an instability, but not ill-posedness
-    well-posed True 0.25
-    """
-
-    kind: Kind
-    exponent: Fraction | float
-    coefficient: float
-    direction: tuple
-    bound: float
-    unstable: bool
-    reason: str
-    loss: Fraction | float = math.nan
-
-    @property
-    def grows(self) -> bool:
-        """Whether any exponential grows, bound > 0; with a finite bound that is not ill-posedness."""
-        return self.bound > 0
 
 
 def verdict(
@@ -99,8 +40,9 @@ def verdict(
     pde : str, Symbol or Pencil
         equations such as "u_t = -u_xx", in x or in x and y, as people write them (``primer help equations``); ``at``,
         ``order``, ``uniform``, ``space``, ``time`` and ``parameters``, for text only, are those of
-        :func:`primer.linearise`. A pencil's entries must be polynomials in xi, and its verdict is as good
-        as they are in double precision.
+        :func:`primer.linearise`. Where a pencil's entries are polynomials in xi its verdict is as good as they are in
+        double precision; where they are not it is a fit, ``exact`` is False, and it may be undecided: beside
+        logarithms, exponentials, or oscillations without bound.
 
     Returns
     -------
@@ -124,8 +66,8 @@ def verdict(
 def _verdict(pde, **arguments):
     try:
         exact = exact_symbol(pde, **arguments)
-    except NotPolynomialError as problem:
-        return _undecided(str(problem))
+    except NotPolynomialError:
+        return computed(pde)
     found = _judged(exact)
     if exact.uniform:
         return found
@@ -139,7 +81,7 @@ def _judged(symbol):
     if symbol.dim == 2:
         limit, k = on_curves(D)
         if math.isinf(limit) and limit > 0:
-            return _undecided(f"growth is unbounded near |xi| = {k:.4g}, on a curve where a time derivative drops out")
+            return undecided(f"growth is unbounded near |xi| = {k:.4g}, on a curve where a time derivative drops out")
     law, direction, drift, doubt = (_along_line if symbol.dim == 1 else _in_plane)(symbol, real)
     where = "" if symbol.dim == 1 else f" in the direction ({direction[0]:.4g}, {direction[1]:.4g})"
     if law.exponent > BEYOND / 20:
@@ -152,12 +94,12 @@ def _judged(symbol):
         reason = f"{law} as |xi| -> infinity{where}: the shorter the wave the faster it grows, without bound{doubt}."
         return Verdict(Kind.ILL_POSED, law.exponent, law.coefficient, direction, math.inf, True, reason, math.inf)
     if doubt:
-        return _undecided(f"the Newton polygon gives {law}{doubt}")
+        return undecided(f"the Newton polygon gives {law}{doubt}")
     bound, k = _supremum(symbol, law, real)
     short = f"for short waves {law}" if law.coefficient else "for short waves Re lambda vanishes"
     if math.isinf(bound):
         at = f"near |xi| = {k:.4g}, where a time derivative drops out" if k else "as |xi| -> 0"
-        return _undecided(f"growth is unbounded {at} ({short})")
+        return undecided(f"growth is unbounded {at} ({short})")
     lost = loss(symbol)
     if bound > 0:
         place = f"near |xi| = {k:.4g}" if math.isfinite(k) else "as |xi| -> infinity"
@@ -232,8 +174,3 @@ def _is_real(D):
     with mp.workdps(DIGITS):
         ratio = D[top].conjugate() * (-1) ** sum(top[1:]) / D[top]
         return all(abs(c.conjugate() * (-1) ** (a + b) - ratio * c) <= 1e-30 * abs(c) for (_, a, b), c in D.items())
-
-
-def _undecided(reason):
-    nan = math.nan
-    return Verdict(Kind.UNDECIDED, nan, nan, (), nan, False, reason[0].upper() + reason[1:] + ".")
