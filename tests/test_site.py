@@ -98,6 +98,7 @@ class Browser:
             self.errors.append(f"asked the network for {request.url}")
 
     def open(self, path, state=""):
+        self.errors.clear()  # what another test made of the page before
         self.page.goto("about:blank")
         self.page.goto(path.as_uri() + state)
         if path.name.startswith("explore_"):
