@@ -32,7 +32,7 @@ _HOME = {
     "MuI": "granular.friction",
     "PDE": "problems.pde",
     "PDEError": "equations.error",
-    "PastHorizon": "schemes.reference",
+    "PastHorizon": "schemes.horizon",
     "Pencil": "analysis.pencil",
     "RK4": "schemes.runge_kutta",
     "RK8": "schemes.runge_kutta",

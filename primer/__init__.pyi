@@ -39,9 +39,9 @@ from .schemes.ftcs import ftcs as ftcs
 from .schemes.grid import CENTRAL as CENTRAL
 from .schemes.grid import CENTRAL_4 as CENTRAL_4
 from .schemes.grid import CENTRAL_6 as CENTRAL_6
+from .schemes.horizon import PastHorizon as PastHorizon
 from .schemes.lines import Lines as Lines
 from .schemes.lines import march_lines as march_lines
-from .schemes.reference import PastHorizon as PastHorizon
 from .schemes.reference import Reference as Reference
 from .schemes.reference import reference as reference
 from .schemes.run import Run as Run

@@ -101,3 +101,38 @@ def check_03_3(answer: float, seed: int = 0) -> Feedback:
         "the seed is 10^-digits times smaller. How long does exp(rate t) take to make up for that?",
         rtol=0.02,
     )
+
+
+def _fifth(seed):
+    return variant("03_5", seed, D=(1.0, 2.0, 0.5, 3.0), K=(5e-4, 2e-3, 1e-4, 4e-5))
+
+
+def ask_03_5(seed: int = 0) -> str:
+    """The question: from which grid on bounded growth stops looking like ill-posedness."""
+    given = _fifth(seed)
+    return (
+        f"u_t = -D u_xx - K u_xxxx with D = {given['D']}, K = {given['K']:.5f}, on a period of 2 pi. On coarse grids "
+        "the fastest growth rises with N squared, as if the equation were ill posed. From which N on can a grid hold "
+        "the wave that really grows fastest, so that growth stops rising? (A real number; take the cut-off xi = N/2.)"
+    )
+
+
+def check_03_5(answer: float, seed: int = 0) -> Feedback:
+    """Whether ``answer`` is sqrt(2 D/K), to one per cent; a ``Feedback``.
+
+    Re lambda = D xi^2 - K xi^4 is largest at xi^2 = D/(2K), where it is D^2/(4K): bounded, however short the waves.
+    """
+    given = _fifth(seed)
+    D, K = given["D"], given["K"]
+    return check(
+        answer,
+        math.sqrt(2 * D / K),
+        "on any coarser grid this equation cannot be told from backward heat: a small fourth derivative hides too.",
+        {
+            "that is the wavenumber. How many points does a grid need to hold it?": math.sqrt(D / (2 * K)),
+            "there growth ends; where is it largest?": 2 * math.sqrt(D / K),
+            "that is how fast that wave grows.": D**2 / (4 * K),
+            "that is xi squared, not N.": D / (2 * K),
+        },
+        "differentiate D xi^2 - K xi^4 by xi^2, then ask the cut-off N/2 to reach that xi.",
+    )

@@ -38,9 +38,14 @@ def of_text(problem):
     return getattr(type(problem), "rhs", None) in (Toy.rhs, BackwardHeat.rhs, PDE.rhs)
 
 
+def has_numpy_s_bits(problem):
+    """Whether machine code would do what NumPy does: always with real numbers, with complex ones as far as is known."""
+    return of_text(problem) and not (getattr(problem, "is_complex", False) and fused() is None)
+
+
 def compilable(problem, n):
     """Whether a problem on n points can be marched by machine code: its right-hand side is that of its text."""
-    if not of_text(problem):
+    if not has_numpy_s_bits(problem):
         return False
     stencils = {m: CENTRAL[m] for m in problem.evolution.orders if m in CENTRAL}
     return len(stencils) == len(problem.evolution.orders) and reach(stencils) <= n
@@ -58,7 +63,7 @@ def fits_a_block(problem, asked):
 @lru_cache(maxsize=256)
 def _step(evolution, kind, lanes, members, form):
     """The code of the paper's step for an evolution."""
-    return machine_code(kernel(evolution, CENTRAL, kind, lanes, members, form, fused()))
+    return machine_code(kernel(evolution, CENTRAL, kind, lanes, members, form, form.fields and fused()))
 
 
 @lru_cache
@@ -141,9 +146,14 @@ class Block:
             while self.clock[2].min() == 0 and self.clock[0].max() < asked.steps and not self.halted:
                 until = min(self.clock[0].max() + CHUNK // self.arrays["w"][0].size + 1, asked.steps)
                 self.book[BOOK["until"][0]] = until
+                self.numbers.stop = self.stop
                 self.loop(address(self.book))
                 self.numbers.raise_what_was_raised()
                 tell(self.clock[0].max())
+
+    def stop(self):
+        """Let the loop come to an end soon."""
+        self.book[BOOK["until"][0]] = 0
 
     def runs(self, interrupted=False):
         """Yield the finished runs of the members."""
@@ -170,4 +180,8 @@ def rows(state):
 
 def back(parts, dtype):
     """The state of such rows, in an array of its own."""
-    return (parts[::2] + 1j * parts[1::2]).astype(dtype) if dtype.kind == "c" else parts.copy()
+    if dtype.kind != "c":
+        return parts.copy()
+    state = np.empty((len(parts) // 2, *parts.shape[1:]), dtype)
+    state.real, state.imag = parts[::2], parts[1::2]
+    return state

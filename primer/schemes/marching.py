@@ -45,7 +45,9 @@ def fields_of(problem: Any, name: str, x: np.ndarray) -> tuple:
 
 def slope_of(problem: Any, x: np.ndarray, derivative: Callable) -> Callable[[np.ndarray, Any], np.ndarray]:
     """f(state, t): the time derivatives, of the shape of the state (fields, n)."""
-    forcing, timed = problem.forcing(x), not getattr(problem, "autonomous", True)
+    timed = not getattr(problem, "autonomous", True)
+    with np.errstate(all="ignore"):  # what is infinite at an x makes itself known in the first step
+        forcing = problem.forcing(x)
     if hasattr(problem, "evolution"):  # a text: what it gives has the right shape
         if not timed:
             return lambda state, t: np.array(problem.rhs(x, state, derivative, forcing))

@@ -132,7 +132,9 @@ class _Plan:
 
     def keep(self, terms):
         """A pass that makes sources of the terms."""
-        stores = tuple((term, self.row(self.is_complex(term))) for term in terms)
+        # One number, spread over the grid, is of the fields' kind.
+        kinds = [self.form.fields if t.kind in ("constant", "clock") else self.is_complex(t) for t in terms]
+        stores = tuple((term, self.row(kind)) for term, kind in zip(terms, kinds, strict=True))
         self.before.append(Pass(stores, tuple(row for _, row in stores), (), self.needed(terms)))
         self.sources += [row for _, row in stores]
 

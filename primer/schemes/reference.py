@@ -6,16 +6,20 @@ import math
 from dataclasses import dataclass, field
 from decimal import ROUND_FLOOR, Context
 from functools import lru_cache
+from typing import Any
 
 import numpy as np
 
 from primer.checks import instance, real, real_array, shown
+from primer.problems.pde import PDE
 from primer.problems.toy import Toy
 from primer.schemes.fourier import FOURIER, interpolate, transfer
 from primer.schemes.grid import Grid
+from primer.schemes.horizon import PastHorizon
 from primer.schemes.lines import MAX_STEPS, stable_step, trace
 from primer.schemes.positive import certain, least
 from primer.schemes.runge_kutta import RK8
+from primer.schemes.solution import solve
 from primer.types import ArrayLike
 
 # Grid points tried in turn, each judged by the next. Multiples of 8 fill a processor's vector registers.
@@ -29,28 +33,6 @@ _TIMES = 10**5  # at which the fields of both marches fit into a gigabyte
 _PATIENCE = 1e8  # steps times points squared, some seconds: past this the first u = 0 is not asked for more exactly
 _LOOK_AHEAD = 4.0  # time up to which it is asked when u first touches 0: it swings lowest at t = 3
 _NEVER = 1.25  # u >= a - 1.1911 at eps = 0, and diffusion takes from the swing: from this a on it is not asked
-
-
-class PastHorizon(ArithmeticError):
-    """There is no answer to stand behind at the time asked for; ``horizon`` is a time at which there is one.
-
-    Where u < 0 eq. (toy-pde) is ill posed, and Hadamard's conditions (A2.1) fail, the first among them: it is not known
-    whether there is a solution at all.
-
-    >>> from primer import Toy, reference
-    >>> try:
-    ...     reference(Toy(0.5), 5.0)
-    ... except PastHorizon as refusal:
-    ...     print(f"{refusal.horizon:.4f}", reference(Toy(0.5), refusal.horizon).error < 1e-10)
-    0.8259 [ True]
-    """
-
-    def __init__(self, message: str, horizon: float) -> None:
-        super().__init__(message, horizon)
-        self.horizon = horizon
-
-    def __str__(self) -> str:
-        return self.args[0]
 
 
 @dataclass(frozen=True, eq=False)
@@ -95,7 +77,7 @@ class Reference:
         return interpolate(self.u, x), interpolate(self.v, x)
 
 
-def reference(toy: Toy, t: ArrayLike, tol: float = 1e-10) -> Reference:
+def reference(toy: Toy | PDE, t: ArrayLike, tol: float = 1e-10) -> Any:
     """The solution of the toy system at the times t with an error of at most about ``tol``, or a refusal.
 
     Fourier collocation in space and the fixed step ``RK8`` in time. The march is made twice, the second time with at
@@ -111,7 +93,8 @@ def reference(toy: Toy, t: ArrayLike, tol: float = 1e-10) -> Reference:
 
     Parameters
     ----------
-    toy : Toy      the problem
+    toy : Toy      the problem; or a ``PDE``, for which the answer is a ``Solution`` of :mod:`primer.schemes.solution`:
+                   two grids in agreement, and growth rates that stay bounded along the way, or a refusal
     t              a time or a sequence of times >= 0, in any order, repeated or not
     tol : float    the largest error of u and v asked for, 128 units in the last place of |a| + 2 at least, below 1
 
@@ -130,6 +113,8 @@ def reference(toy: Toy, t: ArrayLike, tol: float = 1e-10) -> Reference:
     >>> bool(np.abs(truth.u - toy.exact(truth.x, 2.0)[0]).max() < 1e-10)  # eq. (toy-sln)
     True
     """
+    if isinstance(toy, PDE):
+        return solve(toy, _times(t), real("tol", tol, above=0, below=1))
     instance("toy", toy, Toy)
     t = _times(t)
     tol = real("tol", tol, above=0, below=1)

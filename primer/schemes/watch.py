@@ -161,7 +161,7 @@ class _Watch:
     def march(self):
         """The loop."""
         write = self.write
-        clock, until, every, spare, size = map(self.book, ("clock", "until", "every", "spare", "bytes"))
+        clock, every, spare, size = map(self.book, ("clock", "every", "spare", "bytes"))
         sweep, look, shot_steps = map(self.book, ("sweep", "look", "shot_steps"))
         now, running, calm, target, again = (write.variable("i64", value) for value in "00101")
         with write.loop("0", self.members) as (m, _, _):
@@ -183,8 +183,8 @@ class _Watch:
             write.put(f"call void @llvm.memcpy.p0.p0.i64(ptr {to}, ptr {source}, i64 {size}, i1 false)")
 
         count_the_living()
-        with write.loop_while(short_of(lambda: until)):
-            step = write.load("i64", now)
+        with write.loop_while(short_of(lambda: self.book("until"))):  # which may be made smaller on the way
+            step, until = write.load("i64", now), self.book("until")
             record = self.plus(self.integer("sub", step, self.integer("srem", step, every)), every)
             write.store("i64", self.smaller(self.smaller(until, record), self.plus(step, BLOCK)), target)
             with write.loop("0", self.members) as (m, _, _), write.when(self.alive(clock, m)):

@@ -5,20 +5,23 @@ from __future__ import annotations
 import math
 import sys
 import warnings
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from concurrent.futures import BrokenExecutor, Executor, Future, as_completed
 from dataclasses import dataclass
 from multiprocessing import current_process
 from os import PathLike
+from typing import Any
 
 import numpy as np
 
 from primer.checks import real, real_array, sequence, shown
+from primer.problems.pde import PDE
 from primer.problems.toy import Toy
 from primer.schemes.ensemble import ftcs_ensemble
 from primer.schemes.grid import grids
 from primer.schemes.record import plan
 from primer.schemes.run import Seed, Stop
+from primer.study.parameter_map import parameter_map
 from primer.study.stability import OVERSHOOT, stable_dt
 from primer.study.table import Table
 from primer.types import ArrayLike
@@ -64,8 +67,8 @@ class BlowUpMap:
 
 
 def blow_up_map(
-    a_values: ArrayLike,
-    n_values: Iterable[int],
+    a_values: ArrayLike | PDE,
+    n_values: Iterable[int] = (),
     eps: float = 0.01,
     t_end: float = 100.0,
     dt: float = 1e-3,
@@ -73,7 +76,9 @@ def blow_up_map(
     table: str | PathLike | None = None,
     executor: Executor | None = None,
     progress: bool = True,
-) -> BlowUpMap:
+    vary: Mapping[str, Any] | None = None,
+    n: int = 100,
+) -> Any:
     """March the toy system for every base state on every grid, and what blows up once more from a stated seed.
 
     Parameters
@@ -89,10 +94,13 @@ def blow_up_map(
     executor              any ``concurrent.futures.Executor``, such as a process pool or
                           ``dask.distributed.Client.get_executor()``; left out, all cores of this machine
     progress              whether to show a progress bar, on a terminal
+    vary, n               with a ``PDE`` in the place of a_values: the values of any two of its parameters, such as
+                          ``vary={"a": [0.5, 1.5], "eps": [0.01, 0.1]}``, one of which may be "n", the grid; and the
+                          grid otherwise (:func:`primer.study.parameter_map.parameter_map`, on this machine's cores)
 
     Returns
     -------
-    :class:`BlowUpMap`
+    :class:`BlowUpMap`, or a ``ParameterMap``
 
     Raises
     ------
@@ -107,26 +115,30 @@ def blow_up_map(
     array([[False,  True],
            [False, False]])
     """
+    if isinstance(a_values, PDE):
+        return parameter_map(a_values, vary or {}, n, t_end, dt, seed)
+    if vary is not None:
+        raise ValueError(f"vary goes with a PDE, got it with {shown(a_values)}")
     a = _without_repeats("a_values", [real("a_values", x) for x in real_array("a_values", a_values).ravel().tolist()])
-    n = _without_repeats("n_values", grids("n_values", _listed(n_values)))
+    ns = _without_repeats("n_values", grids("n_values", _listed(n_values)))
     eps, t_end, dt = Toy(0, eps).eps, real("t_end", t_end, least=0), real("dt", dt, above=0)
     seed = real("seed", seed, above=0)
     if executor is not None and not isinstance(executor, Executor):
         raise TypeError(f"executor must be a concurrent.futures.Executor or None, got {shown(executor)}")
-    for k in n:  # all is known to fit before anything is marched
+    for k in ns:  # all is known to fit before anything is marched
         plan(k, dt, t_end, 10**9, (), None, 1e3, np.float64, None).refuse_if_large(fields=2, members=len(a))
-    steps = [map_step(a, k, eps, dt) for k in n]
+    steps = [map_step(a, k, eps, dt) for k in ns]
     store = Table(table, {"eps": eps, "t_end": t_end, "seed": seed}, ("n", "dt", "a"), ("t_blow_up", "t_seeded"))
     columns = []
-    for k, step in zip(n, steps, strict=True):
+    for k, step in zip(ns, steps, strict=True):
         missing = [x for x in a if (k, step, x) not in store.rows]
         if missing:
             columns.append((missing, k, eps, step, t_end, seed))
     _march(columns, executor, store, progress)
     nothing = math.nan, math.nan
-    cells = np.array([[store.rows.get((k, step, x), nothing) for k, step in zip(n, steps, strict=True)] for x in a])
-    cells = cells.reshape(len(a), len(n), 2)
-    return BlowUpMap(np.array(a), np.array(n), eps, t_end, np.array(steps), seed, cells[..., 0], cells[..., 1])
+    cells = np.array([[store.rows.get((k, step, x), nothing) for k, step in zip(ns, steps, strict=True)] for x in a])
+    cells = cells.reshape(len(a), len(ns), 2)
+    return BlowUpMap(np.array(a), np.array(ns), eps, t_end, np.array(steps), seed, cells[..., 0], cells[..., 1])
 
 
 def map_step(a_values: Sequence[float], n: int, eps: float, most: float = 1e-3) -> float:

@@ -33,3 +33,14 @@ def truth_03_3(seed):
     text = exercises.ask_03_3(seed)
     n, digits = int(re.search(r"N = (\d+)", text)[1]), int(re.search(r"with (\d+) more", text)[1])
     return digits * math.log(10) / np.linalg.eigvals(jacobian(Toy(0.5), n)).real.max()
+
+
+def truth_03_5(seed):
+    """By a search over the growth of waves e^{i xi x}, and a grid whose cut-off is that wave."""
+    D, K = numbers(exercises.ask_03_5(seed))[:2]
+    low, high = 0.0, math.sqrt(D / K)
+    for _ in range(200):  # of one maximum, by thirds
+        a, b = low + (high - low) / 3, high - (high - low) / 3
+        growing = [D * xi**2 - K * xi**4 for xi in (a, b)]
+        low, high = (a, high) if growing[0] < growing[1] else (low, b)
+    return low + high
