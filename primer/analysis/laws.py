@@ -39,8 +39,8 @@ def growth_laws(
 
     Parameters
     ----------
-    direction : number, or pair of numbers    by default 1, or (1, 0); only its direction counts
-    others                                    as for :func:`primer.verdict`
+    direction : number, or two or three    by default 1, or (1, 0), (1, 0, 0); only its direction counts
+    others                                 as for :func:`primer.verdict`
 
     Returns
     -------
@@ -67,14 +67,16 @@ def growth_laws(
 
 
 def _laws(exact, direction):
-    along = np.atleast_1d(real_array("direction", [1, 0][: exact.dim] if direction is None else direction))
+    along = np.atleast_1d(real_array("direction", [1, 0, 0][: exact.dim] if direction is None else direction))
     if along.shape != (exact.dim,) or not along.any():
         raise ValueError(f"direction must be {exact.dim} number(s), not all zero, got {shown(direction)}")
     with mp.workdps(DIGITS):
         d = [mp.mpf(repr(float(x))) for x in along]
         length = mp.sqrt(sum(x**2 for x in d))
         d = [*(x / length for x in d), mp.mpf(1)]
-        terms = (((n, a + b), c * d[0] ** a * d[1] ** b) for (n, a, b), c in exact.determinant.items())
+        terms = []
+        for (n, *powers), c in exact.determinant.items():
+            terms.append(((n, sum(powers)), c * mp.fprod(x**a for x, a in zip(d, powers, strict=False))))
         return branches(collected(terms))
 
 
@@ -102,6 +104,6 @@ def exact_symbol(
     D = exact.determinant
     if not D:
         raise PDEError("the linearised equations do not determine the unknowns: det(lambda E + S) vanishes identically")
-    if not any(n for n, _, _ in D):
+    if not any(n for n, *_ in D):
         raise PDEError("the constraints leave nothing that evolves: no perturbation has a growth rate")
     return exact

@@ -1,6 +1,7 @@
 """Symbols with their coefficients known: polynomial matrices M(lambda, xi), and det M without rounding.
 
-A polynomial is a dict {(n, a, b): c} standing for the sum of c lambda^n xi_1^a xi_2^b; b = 0 in one space variable.
+A polynomial is a dict {(n, a, b): c} standing for the sum of c lambda^n xi_1^a xi_2^b; b = 0 in one space variable. In
+three there is one more power, (n, a, b, c).
 """
 
 from __future__ import annotations
@@ -26,7 +27,7 @@ class Symbol:
     Attributes
     ----------
     entries : tuple of tuples of polynomials {(n, a, b): c} in lambda and the derivatives (d/dx, d/dy) = i xi: the
-        coefficients of time derivatives of order n and space derivatives of orders a and b
+        coefficients of time derivatives of order n and space derivatives of orders a and b (and c)
     dim : int       the number of space variables
     uniform : bool  whether the coefficients are those of a base state that is uniform and steady, so that the growth of
                     an exponential is that of a perturbation; where it varies they are frozen at a point
@@ -41,7 +42,7 @@ class Symbol:
         """det M as a polynomial {(n, a, b): c} in lambda, xi_1, xi_2, without the terms that cancel."""
         with mp.workdps(DIGITS):
             i = mp.mpc(0, 1)
-            rows = [[{p: c * i ** (p[1] + p[2]) for p, c in entry.items()} for entry in row] for row in self.entries]
+            rows = [[{p: c * i ** sum(p[1:]) for p, c in entry.items()} for entry in row] for row in self.entries]
             return determinant(rows, ZERO)
 
     def pencil(self, multiplier: Multiplier | None = None) -> Pencil:
@@ -49,7 +50,7 @@ class Symbol:
 
         ``multiplier(xi, m)`` replaces (i xi)^m; it is called with m >= 1.
         """
-        orders = [max((n for row in self.entries for n, _, _ in row[c]), default=0) for c in range(len(self.entries))]
+        orders = [max((n for row in self.entries for n, *_ in row[c]), default=0) for c in range(len(self.entries))]
         width = len(orders)
         place = {}  # (unknown, time derivatives) -> column
         for c, order in enumerate(orders):
@@ -60,9 +61,9 @@ class Symbol:
         E: dict = defaultdict(list)
         for r, row in enumerate(self.entries):
             for c, entry in enumerate(row):
-                for (n, a, b), value in entry.items():
+                for (n, *powers), value in entry.items():
                     top = n and n == orders[c]
-                    (E if top else S)[r, place[c, n - 1 if top else n]].append((complex(value), a, b))
+                    (E if top else S)[r, place[c, n - 1 if top else n]].append((complex(value), *powers))
         for (c, n), column in place.items():
             if n:
                 E[column, place[c, n - 1]].append((1, 0, 0))

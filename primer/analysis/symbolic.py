@@ -51,8 +51,6 @@ def symbol(
     PDEError    (a ValueError) for text that cannot be used, or for values that matter and are not given, all of them
     """
     system, values = frozen(text, at, order, uniform, space, time, parameters)
-    if system.dim == 3:
-        raise PDEError("a third space variable: there are x and y only")
     missing, entries = dict.fromkeys(dropped(system, values)), []
     with mp.workdps(DIGITS):
         for r, slopes in enumerate(system.slopes):
@@ -68,7 +66,7 @@ def symbol(
             entries.append(tuple(row.values()))
     if missing:
         raise PDEError(not_given(missing, system))
-    if not any(n for row in entries for entry in row for n, _, _ in entry):
+    if not any(n for row in entries for entry in row for n, *_ in entry):
         raise PDEError("no equation contains a time derivative (u_t), so nothing evolves")
     return Symbol(tuple(entries), system.dim, is_uniform(system, values))
 

@@ -11,7 +11,7 @@ from primer.problems.pde import PDE
 from primer.problems.toy import Toy
 from primer.schemes.grid import CENTRAL
 from primer.schemes.kernel import BOOK, kernel
-from primer.schemes.passes import passes
+from primer.schemes.passes import Form, passes
 from primer.schemes.pointwise import KINDS
 from primer.schemes.slope import reach, width
 from primer.schemes.watch import watch
@@ -55,9 +55,17 @@ def fits_a_block(problem, asked):
     """What problems must have in common to be members of one block, or None where this one must be marched alone."""
     if asked.numbers.dtype not in (np.float32, np.float64) or not compilable(problem, asked.grid.n):
         return None
-    _, x, state, _ = asked.start(problem)
-    form = Numbers(problem, x, state.real.dtype).form(state.dtype.kind == "c")
+    if getattr(problem, "is_complex", False):
+        _, x, state, _ = asked.start(problem)
+        form = Numbers(problem, x, state.real.dtype).form(True)
+    else:
+        form = _all_real(problem.evolution)
     return None if form.clock or passes(problem.evolution, form).calls else (problem.evolution, form)
+
+
+@lru_cache(maxsize=256)
+def _all_real(evolution):
+    return Form(False, *((False,) * len(part) for part in (evolution.constants, evolution.fixed, evolution.clocks)))
 
 
 @lru_cache(maxsize=256)

@@ -124,7 +124,7 @@ def against_py_pde(n=64):
     for name, text, theirs, (part, power), t_end, parameters in RIVALS:
         own = PDE(text, {"u": "1/2 + sin(x)/5"}, **parameters)
         steps = int(np.ceil(t_end / (part * (2 * np.pi / n) ** power)))
-        truth = march_lines(own, 48, 2e-5 if power == 4 else 2e-3, t_end, FOURIER, RK8).final[0]
+        truth = march_lines(own, 48, 1e-5 if power == 4 else 2e-3, t_end, FOURIER, RK8).final[0]
         grid = pde.CartesianGrid([[-np.pi, np.pi]], [n], periodic=True)
         x = grid.axes_coords[0]
         start, equation = pde.ScalarField(grid, own.initial(x)[0]), pde.PDE({"u": theirs})
