@@ -22,8 +22,7 @@ GRIDS, SIDE, STRAIN = (32, 64, 128), 200.0, 0.06
 
 def compute():
     friction, packing = GLASS_BEADS.friction, EXAMPLE_COMPACTION
-    mu = friction.mu(I)
-    laws = Coulomb(mu), IncompressibleMuI(friction), CSSM(mu, packing), CIDR(friction, packing)
+    laws = Coulomb(friction.mu1), IncompressibleMuI(friction), CSSM(friction.mu1, packing), CIDR(friction, packing)
     state = BaseState(RATIO * packing.C(PHI), PHI, I)
     t = STRAIN / state.D
     return [(law, coefficients(law, state), [noise_after(law, state, n, t, SIDE) for n in GRIDS]) for law in laws]

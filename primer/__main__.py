@@ -11,6 +11,7 @@ from typing import Any
 from primer import __version__
 from primer.claims import VERDICTS, claims
 from primer.claims import report as claims_report
+from primer.diagnosing import add_command as add_diagnose
 from primer.granular.command import add_command as add_granular
 from primer.lab import add_command as add_lab
 from primer.run import add_command as add_run
@@ -59,6 +60,7 @@ def _parser():
     commands = parser.add_subparsers(metavar="COMMAND", required=True)
     _add_verdict(commands)
     add_run(commands)
+    add_diagnose(commands)
     add_granular(commands)
     add_lab(commands)
     add_site(commands)

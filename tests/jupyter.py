@@ -143,7 +143,7 @@ class Box:
 
     def wait_until(self, role, said):
         """Until the verdict has the role (``status``, or ``alert`` where something is wrong) and says so."""
-        verdict = "box.querySelector('.primer-verdict')"
+        verdict = "box.querySelector('.primer-said')"
         self.page.wait_for_function(
             f"([box, role, said]) => {verdict}.getAttribute('role') === role && {verdict}.textContent.includes(said)",
             arg=[self.box.element_handle(), role, said],

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-import primer.study.diagnosis as diagnosis
+import primer.study.toy_diagnosis as diagnosis
 from primer import Seed, Stop, Toy, diagnose, ftcs
 from primer.schemes.discrete import discrete_steady
 from primer.schemes.grid import Grid
@@ -192,7 +192,7 @@ def foreseen(monkeypatch):
 
         monkeypatch.setattr(diagnosis, "forecast", forecast)
         monkeypatch.setattr(diagnosis, "growth", lambda *_: growth)
-        return diagnose(toy, **{"n": 100, "dt": 1e-2, "t_end": 12.0, **options}), asked
+        return diagnosis.foretold(toy, **{"n": 100, "dt": 1e-2, "t_end": 12.0, **options}), asked
 
     return diagnosed
 
@@ -323,7 +323,7 @@ def test_a_stride_is_m_steps_and_keeps_their_stability(m):
 @pytest.mark.parametrize(
     ("arguments", "error", "sentence"),
     [
-        ((3,), TypeError, "toy must be a Toy, got 3"),
+        ((3,), TypeError, "problem must be a PDE, a Toy, a BackwardHeat or an object with their methods, got 3"),
         ((Toy(1), 3), ValueError, "n must be an integer >= 4, got 3"),
         ((Toy(1), 100, 0), ValueError, "dt must be a finite number > 0, got 0"),
         ((Toy(1), 100, 1e-3, 1.0, (3, 1e-6, "w")), ValueError, "seed field must be one of u, v, got 'w'"),

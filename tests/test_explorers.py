@@ -151,6 +151,7 @@ def test_the_picture_has_alternative_text_that_changes_with_it(explorer):
         shown._go_to(state)
         words = html.escape(shown.verdict)
         assert f'alt="{words}"' in shown._image.value
+        assert f'alt="{words}"' in shown._repr_mimebundle_()["text/html"]
 
 
 @pytest.mark.slow
@@ -210,10 +211,10 @@ def test_the_explorer_speaks_its_own_language():
 @every
 def test_a_snapshot_says_what_it_shows(explorer):
     still = explorer.snapshot()
-    data, metadata = still._repr_mimebundle_()
+    data = still._repr_mimebundle_()
     assert still.verdict == explorer().verdict
     assert still.verdict in data["text/plain"]
-    assert metadata["image/png"]["alt"] == still.verdict
+    assert f'alt="{html.escape(still.verdict)}"' in data["text/html"]
     assert pixels(still.png).shape[1] > 700
 
 

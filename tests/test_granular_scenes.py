@@ -33,7 +33,7 @@ from primer.granular.dispersion import growth_rates
 from primer.granular.fastest import fastest
 from primer.granular.linearisation import reduced
 from primer.granular.maps import growth_map, neutral_stress_ratio
-from primer.granular.noise import modes, noise_after
+from primer.granular.noise import _exponentials, modes, noise_after
 from primer.granular.routes import ROUTES, asymptotic, compare, multiprecision, wavevector
 
 BEADS, PACKING = GLASS_BEADS.friction, EXAMPLE_COMPACTION
@@ -469,3 +469,18 @@ def test_the_command_takes_every_parameter_and_its_defaults_are_the_reports(caps
         report("sand", p=0.2, phi=0.55, I=0.1)
     with pytest.raises(SystemExit):
         main(where[:3] + where[3:5])  # p and I are needed
+
+
+@pytest.mark.parametrize("size", [1e-6, 1.0, 30.0])
+def test_matrix_exponentials_at_once_are_those_one_by_one(size):
+    """Growing and damped matrices of many sizes in one batch, against scipy."""
+    random = np.random.default_rng(3)
+    A = (
+        size
+        * (random.normal(size=(60, 3, 3)) + 1j * random.normal(size=(60, 3, 3)))
+        * np.geomspace(0.01, 1, 60)[:, None, None]
+    )
+    A[::2] -= 3 * size * np.eye(3)
+    ours, theirs = _exponentials(A), expm(A)
+    apart = np.abs(ours - theirs).max(axis=(1, 2)) / np.abs(theirs).max(axis=(1, 2))
+    assert apart.max() < 1e-12

@@ -11,9 +11,8 @@ from jupyter import ARTEFACTS, CHROMIUM, chromium
 
 import primer
 from primer.__main__ import main
-from primer.analysis.symbolic import symbol
-from primer.scenes.pde import XI, _growth
 from primer.scenes.pde import pde as answer
+from primer.view.page.closed import closed_form
 from primer.view.page.collection import PAGES, shelves
 from primer.view.page.record import recorded
 from primer.view.picture import Picture
@@ -99,6 +98,7 @@ class Browser:
             self.errors.append(f"asked the network for {request.url}")
 
     def open(self, path, state=""):
+        self.errors.clear()  # what another test made of the page before
         self.page.goto("about:blank")
         self.page.goto(path.as_uri() + state)
         if path.name.startswith("explore_"):
@@ -219,15 +219,16 @@ def test_closed_forms_are_primers_at_a_hundred_states(site, browser):
     (explorer,) = (one for one in PAGES if PAGES[one][0] == "pde")
     browser.open(site / "explore_pde.html")
     random, (equation, *_) = np.random.default_rng(81), shelves(explorer)
-    with_numbers = [(k, place) for k, (_, place) in enumerate(equation.places)]
-    for k, place in [with_numbers[int(random.integers(len(with_numbers)))] for _ in range(100)]:
-        names = sorted(re.findall(r"(\w+)=", place["at"]))
+    named = ("pde", "at", "order", "uniform")
+    forms = [(k, {name: place[name] for name in named}) for k, (_, place) in enumerate(equation.places)]
+    forms = [(k, place) for k, place in forms if closed_form(**place)]
+    assert len(forms) > 10
+    for k, place in [forms[int(random.integers(len(forms)))] for _ in range(100)]:
+        names = closed_form(**place)["names"]
         values = [float(random.uniform(0.01, 1) if name in ("eps", "nu") else random.normal()) for name in names]
         at = " ".join(f"{name}={value!r}" for name, value in zip(names, values, strict=True))
         got = np.array(browser.page.evaluate("([k, values]) => primerGrowth(k, values)", [k, values]), dtype=float)
-        known = dict(zip(names, values, strict=True))
-        found = answer(place["pde"], at, place["order"]).found
-        wanted = _growth(symbol(place["pde"], at=known, order=place["order"]), XI, found)
+        wanted = answer(**place | {"at": at}).rate
         np.testing.assert_allclose(got, wanted, rtol=1e-6, atol=1e-6, err_msg=f"{place} {at}")
     assert not browser.errors
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from primer.analysis.pencil import Pencil, growth
+from primer.analysis.sphere import best_directions
 from primer.checks import affordable, instance, real_array, shown
 from primer.types import ArrayLike, Numbers
 
@@ -25,7 +26,7 @@ class MaxGrowth:
     ----------
     k : array of shape s            the wavenumbers
     growth : array of shape s       max Re lambda over branches and directions
-    direction : array               unit vectors of shape (2,) + s in two space variables; signs, of shape s, in one
+    direction : array               unit vectors of shape (dim,) + s; signs, of shape s, in one space variable
 
     The supremum over directions of eq. (wellp-first-formula), at one length of xi.
 
@@ -41,8 +42,8 @@ class MaxGrowth:
 
     @property
     def angle(self) -> Numbers:
-        """The angle from the x-axis (radians), of shape s; in one space variable 0 or pi."""
-        x, y = self.direction if self.direction.ndim > self.k.ndim else (self.direction, np.zeros(self.k.shape))
+        """The angle from the x-axis (radians), of shape s; in one space variable 0 or pi, in three that of (x, y)."""
+        x, y = self.direction[:2] if self.direction.ndim > self.k.ndim else (self.direction, np.zeros(self.k.shape))
         return np.arctan2(y, x)
 
 
@@ -52,7 +53,8 @@ def max_growth(pencil: Pencil, k: ArrayLike) -> MaxGrowth:
     A scan of fixed directions can miss the peak altogether: in critical-state soil mechanics at its critical state
     the growth |xi|^{2/3} lives in a window of width |xi|^{-2/3} that drifts. So each local maximum of the scan is
     followed to rounding level, and so is each direction where branches nearly meet or vanish, whose neighbourhood is
-    then searched at all scales down to 1e-14 radians.
+    then searched at all scales down to 1e-14 radians (in three space variables, as a spiral over the sphere and the
+    symmetric directions find them).
 
     Returns
     -------
@@ -78,6 +80,9 @@ def max_growth(pencil: Pencil, k: ArrayLike) -> MaxGrowth:
         rates = growth(pencil, flat[:, None] * signs)
         best = np.argmax(np.where(np.isnan(rates), -np.inf, rates), axis=1)
         return MaxGrowth(k, rates[np.arange(len(flat)), best].reshape(k.shape), signs[best].reshape(k.shape))
+    if pencil.dim == 3:
+        direction = best_directions(pencil, flat)
+        return MaxGrowth(k, growth(pencil, flat * direction).reshape(k.shape), direction.reshape(3, *k.shape))
     angle = _best_angles(pencil, flat)
     direction = np.stack([np.cos(angle), np.sin(angle)])
     return MaxGrowth(k, growth(pencil, flat * direction).reshape(k.shape), direction.reshape(2, *k.shape))

@@ -16,6 +16,7 @@ EPS = np.finfo(float).eps
 TINY = 1e-150  # the square of its inverse is still a number
 LEAST = 2.0**-300  # the smallest factor by which a row or column is divided: the cube of its inverse is still a number
 LOST = 1e50  # an iterate this large is on its way to infinity
+CIRCLE = 6  # values back that an iterate is compared with
 STEPS = 60  # Ehrlich-Aberth converges cubically; graded starting values need a few dozen steps at the very most
 
 
@@ -54,6 +55,7 @@ def _polished(S, E, lam, active):
     """lam after the Ehrlich-Aberth iteration, of those that are ``active`` only."""
     lost = np.zeros(lam.shape, dtype=bool)
     last = np.full(lam.shape, np.inf)
+    visited: list[np.ndarray] = []
     for _ in range(STEPS):
         rows = np.flatnonzero(active.any(axis=1))
         if not rows.size:
@@ -71,7 +73,11 @@ def _polished(S, E, lam, active):
         lam[rows] = np.where(lost[rows], LOST * np.exp(1j * np.arange(now.shape[1])), new)
         # Stop at rounding level, or when a step no longer shrinks: a zero or a multiple eigenvalue has no better value.
         done = (size <= 2 * EPS * np.abs(now)) | (settled & (size > last[rows] / 2))
+        # A zero among large ones, or a multiple one, may go round in a circle at rounding level for ever.
+        for old in visited[-CIRCLE:]:
+            done |= np.abs(lam[rows] - old[rows]) <= 2 * EPS * np.abs(lam[rows])
         active[rows] &= ~(done | lost[rows])
+        visited.append(lam.copy())
         last[rows] = size
     lam[lost] = np.nan
     return lam

@@ -19,8 +19,8 @@ from primer.analysis.poles import of_law
 from primer.analysis.puiseux import Law
 from primer.equations.error import PDEError
 
-DECADES = {1: 16, 2: 12, 3: 10}  # of |xi|, up and down from 1, as far as the entries are numbers, by space variables
-STEPS = {1: 8, 2: 2, 3: 2}  # wavenumbers a decade
+DECADES = {1: 16, 2: 12, 3: 8}  # of |xi|, up and down from 1, as far as the entries are numbers, by space variables
+STEPS = {1: 8, 2: 2, 3: 1}  # wavenumbers a decade
 WINDOW = 4  # decades that are fitted
 SETTLED = 1e-2  # the largest uncertainty of an exponent
 SHRINKS = 0.65  # by which what changes from decade to decade must shrink: k^(-1/4) gives 0.56, 1/log k gives 0.87

@@ -20,7 +20,9 @@ from primer.types import ArrayLike
 
 
 class NotPolynomialError(ValueError):
-    """The entries of a pencil are not polynomials in xi, so that there is no Newton polygon."""
+    """The entries are not polynomials in xi, so that there is no Newton polygon; ``symbol`` where it is known."""
+
+    symbol: Symbol | None = None
 
 
 def growth_laws(
@@ -39,8 +41,8 @@ def growth_laws(
 
     Parameters
     ----------
-    direction : number, or pair of numbers    by default 1, or (1, 0); only its direction counts
-    others                                    as for :func:`primer.verdict`
+    direction : number, or two or three    by default 1, or (1, 0), (1, 0, 0); only its direction counts
+    others                                 as for :func:`primer.verdict`
 
     Returns
     -------
@@ -67,14 +69,16 @@ def growth_laws(
 
 
 def _laws(exact, direction):
-    along = np.atleast_1d(real_array("direction", [1, 0][: exact.dim] if direction is None else direction))
+    along = np.atleast_1d(real_array("direction", [1, 0, 0][: exact.dim] if direction is None else direction))
     if along.shape != (exact.dim,) or not along.any():
         raise ValueError(f"direction must be {exact.dim} number(s), not all zero, got {shown(direction)}")
     with mp.workdps(DIGITS):
         d = [mp.mpf(repr(float(x))) for x in along]
         length = mp.sqrt(sum(x**2 for x in d))
         d = [*(x / length for x in d), mp.mpf(1)]
-        terms = (((n, a + b), c * d[0] ** a * d[1] ** b) for (n, a, b), c in exact.determinant.items())
+        terms = []
+        for (n, *powers), c in exact.determinant.items():
+            terms.append(((n, sum(powers)), c * mp.fprod(x**a for x, a in zip(d, powers, strict=False))))
         return branches(collected(terms))
 
 
@@ -99,9 +103,13 @@ def exact_symbol(
             raise NotPolynomialError("the entries of the pencil are not polynomials in xi of degree 8 or less")
     else:
         exact = pde
+    if exact.operators:
+        problem = NotPolynomialError("H and absD make a symbol that is no polynomial in xi: it has no Newton polygon")
+        problem.symbol = exact
+        raise problem
     D = exact.determinant
     if not D:
         raise PDEError("the linearised equations do not determine the unknowns: det(lambda E + S) vanishes identically")
-    if not any(n for n, _, _ in D):
+    if not any(n for n, *_ in D):
         raise PDEError("the constraints leave nothing that evolves: no perturbation has a growth rate")
     return exact

@@ -22,15 +22,15 @@ class Pencil:
 
     Parameters
     ----------
-    S : callable, constant array, or sympy Matrix in the symbols xi, or xi_1 and xi_2
-        ``S(xi)`` is the k x k symbol. In one space variable xi is a number or an array of shape s; in two it has its
-        component axis *first*, shape (2,) + s, so that ``xi1, xi2 = xi`` works for one wavevector and for many. S
-        returns shape s + (k, k), or nested lists whose entries are of shape s or numbers; one that can only serve a
-        single wavevector is called once for each.
+    S : callable, constant array, or sympy Matrix in the symbols xi, or xi_1, xi_2 (and xi_3)
+        ``S(xi)`` is the k x k symbol. In one space variable xi is a number or an array of shape s; in two, or
+        three, it has its component axis *first*, shape (2,) + s, so that ``xi1, xi2 = xi`` works for one wavevector and
+        for many. S returns shape s + (k, k), or nested lists whose entries are of shape s or numbers; one that can only
+        serve a single wavevector is called once for each.
     E : array of shape (k, k), or a callable of xi like S
         the coefficients of the time derivatives. It may be singular: a row of zeros is a constraint (div u = 0).
     dim : int
-        the number of space variables, 1 or 2; left out, it is 1 if S can be called with a number, else 2
+        the number of space variables, 1, 2 or 3; left out, the least with which S can be called
 
     Raises
     ------
@@ -51,7 +51,7 @@ class Pencil:
         for name in ("S", "E"):
             if hasattr(getattr(self, name), "free_symbols"):
                 object.__setattr__(self, name, _from_sympy(name, getattr(self, name)))
-        dim = _dimension(self.S) if self.dim is None else integer("dim", self.dim, least=1, most=2)
+        dim = _dimension(self.S) if self.dim is None else integer("dim", self.dim, least=1, most=3)
         object.__setattr__(self, "dim", dim)
         for name in ("S", "E"):
             if not callable(getattr(self, name)):
@@ -73,8 +73,8 @@ class Pencil:
     def probe(self) -> np.ndarray:
         """Wavevectors in general position, more of them than the matrices can be wide."""
         j = np.arange(1, 14)
-        xi = np.stack([1.1 + 0.37 * np.sin(2.3 * j), -0.7 + 0.41 * np.cos(1.7 * j)])
-        return xi if self.dim == 2 else xi[0]
+        xi = [1.1 + 0.37 * np.sin(2.3 * j), -0.7 + 0.41 * np.cos(1.7 * j), 0.9 - 0.31 * np.sin(1.3 * j)]
+        return xi[0] if self.dim == 1 else np.stack(xi[: self.dim])
 
     @cached_property
     def count(self) -> int:
@@ -94,10 +94,10 @@ class Pencil:
         return {name: _serves_many(f, self.probe) for name, f in functions.items()}
 
     def matrices(self, xi: ArrayLike) -> tuple[np.ndarray, np.ndarray]:
-        """(S, E) at wavevectors xi of shape s, or (2,) + s: complex arrays of shape s + (k, k)."""
+        """(S, E) at wavevectors xi of shape s, or (dim,) + s: complex arrays of shape s + (k, k)."""
         xi = self.wavevectors(xi)
         shape = xi.shape if self.dim == 1 else xi.shape[1:]
-        flat = xi.reshape(-1) if self.dim == 1 else xi.reshape(2, -1)
+        flat = xi.reshape(-1) if self.dim == 1 else xi.reshape(len(xi), -1)
         affordable("xi: the matrices of all wavevectors", 128 * flat.shape[-1] * self.size**2, f"shape {xi.shape}")
         with np.errstate(all="ignore"):
             S, E = (self._values(name, flat).reshape(*shape, self.size, self.size) for name in ("S", "E"))
@@ -108,8 +108,9 @@ class Pencil:
     def wavevectors(self, xi: ArrayLike) -> np.ndarray:
         """xi as a float array, its shape checked."""
         xi = real_array("xi", xi)
-        if self.dim == 2 and (xi.ndim == 0 or len(xi) != 2):
-            raise ValueError(f"xi must have shape (2, ...) for two space variables, got shape {xi.shape}")
+        if self.dim != 1 and (xi.ndim == 0 or len(xi) != self.dim):
+            number = "two" if self.dim == 2 else "three"
+            raise ValueError(f"xi must have shape ({self.dim}, ...) for {number} space variables, got shape {xi.shape}")
         return xi
 
     def _values(self, name, xi):
@@ -153,8 +154,8 @@ def growth(pencil: Pencil, xi: ArrayLike) -> Numbers:
 
 
 def _dimension(S):
-    """1 unless S cannot be called with a number but can with a pair of them."""
-    for dim, xi in ((1, np.float64(1.1)), (2, np.array([1.1, -0.7]))):
+    """The least dimension in which S can be called: 1, unless it cannot with a number but can with two or three."""
+    for dim, xi in ((1, np.float64(1.1)), (2, np.array([1.1, -0.7])), (3, np.array([1.1, -0.7, 0.9]))):
         try:
             if callable(S):
                 S(xi)
@@ -165,7 +166,7 @@ def _dimension(S):
 
 
 def _from_sympy(name, matrix):
-    """A sympy matrix in xi, or in xi_1 and xi_2, as a function of one wavevector; an array if it is constant."""
+    """A sympy matrix in xi, or in xi_1, xi_2, xi_3, as a function of one wavevector; an array if it is constant."""
     import sympy
 
     matrix = matrix.subs({symbol: sympy.Symbol(symbol.name) for symbol in matrix.free_symbols})  # without assumptions
@@ -174,15 +175,10 @@ def _from_sympy(name, matrix):
         return np.array(matrix.tolist(), dtype=complex)
     if set(names) <= {"xi"}:
         return sympy.lambdify(sympy.Symbol("xi"), matrix.tolist(), "numpy")
-    if set(names) <= {"xi_1", "xi_2"}:
-        by_component = sympy.lambdify(sympy.symbols("xi_1 xi_2"), matrix.tolist(), "numpy")
-        return lambda xi: by_component(*_pair(xi))
-    raise ValueError(f"{name} must be a matrix in xi, or in xi_1 and xi_2, alone, got symbols {', '.join(names)}")
-
-
-def _pair(xi):
-    xi1, xi2 = xi
-    return xi1, xi2
+    if set(names) <= {"xi_1", "xi_2", "xi_3"}:
+        two, three = (sympy.lambdify(sympy.symbols(f"xi_1:{n}"), matrix.tolist(), "numpy") for n in (3, 4))
+        return lambda xi: (two if len(xi) == 2 and "xi_3" not in names else three)(*xi)
+    raise ValueError(f"{name} must be a matrix in xi, or in xi_1, xi_2, xi_3, alone, got symbols {', '.join(names)}")
 
 
 def _square(name, value):

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
+from primer.analysis import sphere
 from primer.analysis.directions import max_growth
 from primer.analysis.eigen import EPS, finite_eigenvalues
 
-AROUND = 60  # directions of the scan in the plane; three times as many over the sphere
+AROUND = 60  # directions of the scan in the plane
 SHAKEN = 4  # times that the entries are moved by a rounding error
 ROUNDING = 1e-13  # relative error of an eigenvalue, with something to spare
 GENERIC = 1.013  # wavenumbers are powers of ten times this, so that none is at a pole such as |xi| = 1
@@ -34,6 +35,8 @@ def directions(pencil):
     """Unit vectors of shape (dim, m); in one space variable the two signs, of shape (2,)."""
     if pencil.dim == 1:
         return np.array([1.0, -1.0])
+    if pencil.dim == 3:
+        return sphere.directions()
     angle = np.pi * (np.arange(AROUND) + 0.137) / AROUND * (1 if pencil.is_real else 2)
     return np.stack([np.cos(angle), np.sin(angle)])
 
@@ -89,7 +92,7 @@ def scanned(pencil, k):
 
 def climbed(pencil, xi, width):
     """(xi, growth) with each xi of shape (n,) or (dim, n) moved uphill by ever finer scans about it."""
-    axes = np.meshgrid(*[np.linspace(-1, 1, 5)] * pencil.dim, indexing="ij")
+    axes = np.meshgrid(*[np.linspace(-1, 1, 5 if pencil.dim < 3 else 3)] * pencil.dim, indexing="ij")
     steps = np.stack([axis.ravel() for axis in axes])
     xi = np.atleast_2d(xi)
     for _ in range(60):

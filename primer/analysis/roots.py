@@ -54,7 +54,18 @@ def roots(p, zero=ZERO):
         return [*found, *((-p[0] / a, 1) for a in p[1:])]
     size = mp.root(abs(p[0] / p[-1]), len(p) - 1)  # the roots' geometric mean, scaled to one
     p = [a * size**n for n, a in enumerate(p)]
-    return found + [(size * z, multiplicity) for z, multiplicity in _scaled_roots(p, zero)]
+    return found + [(size * z, multiplicity) for z, multiplicity in _told_apart(p, zero)]
+
+
+def _told_apart(p, zero):
+    """The roots by Yun's decomposition; by a finer zero where it is at odds with itself, as where roots nearly meet."""
+    for least, dps in ((zero, mp.mp.dps), (zero**2, 3 * mp.mp.dps), (zero**4, 6 * mp.mp.dps)):
+        with mp.workdps(dps):
+            found = _scaled_roots(p, least)
+        if sum(multiplicity for _, multiplicity in found) == len(p) - 1:
+            return found
+    with mp.workdps(6 * mp.mp.dps):
+        return [(z, 1) for z in mp.polyroots(p[::-1], maxsteps=5000, extraprec=4 * mp.mp.prec, error=False)]
 
 
 def _scaled_roots(p, zero):
@@ -65,6 +76,8 @@ def _scaled_roots(p, zero):
     while len(simple) > 1:
         again = common(simple, shared, zero)
         once, _ = divided(simple, again)
+        if not once:
+            return []
         found += [(z, multiplicity) for z in _simple_roots(once)]
         shared, _ = divided(shared, again)
         simple, multiplicity = again, multiplicity + 1

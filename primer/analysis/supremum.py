@@ -14,7 +14,7 @@ from primer.analysis.puiseux import collected
 from primer.analysis.roots import ZERO, roots
 from primer.analysis.scales import scales
 
-PRECISE = 100  # digits for the roots at one wavenumber
+PRECISE = 150  # digits for the roots at one wavenumber
 ABOVE = mp.mpf(10) ** -9  # how far above the best value found, relative to it, growth is asked for
 FAINT = mp.mpf(10) ** -30  # growth smaller than this beside the smallest scale of lambda counts as none
 ROUNDS = 20  # of asking; two or three are usual

@@ -51,8 +51,6 @@ def symbol(
     PDEError    (a ValueError) for text that cannot be used, or for values that matter and are not given, all of them
     """
     system, values = frozen(text, at, order, uniform, space, time, parameters)
-    if system.dim == 3:
-        raise PDEError("a third space variable: there are x and y only")
     missing, entries = dict.fromkeys(dropped(system, values)), []
     with mp.workdps(DIGITS):
         for r, slopes in enumerate(system.slopes):
@@ -68,9 +66,9 @@ def symbol(
             entries.append(tuple(row.values()))
     if missing:
         raise PDEError(not_given(missing, system))
-    if not any(n for row in entries for entry in row for n, _, _ in entry):
+    if not any(n for row in entries for entry in row for n, *_ in entry):
         raise PDEError("no equation contains a time derivative (u_t), so nothing evolves")
-    return Symbol(tuple(entries), system.dim, is_uniform(system, values))
+    return Symbol(tuple(entries), system.dim, is_uniform(system, values), system.operators)
 
 
 def growth_rates(
@@ -131,7 +129,9 @@ def pencil(
     if multiplier is not None and not callable(multiplier):
         raise TypeError(f"multiplier must be a function of xi and m, got {shown(multiplier)}")
     exact = symbol(text, at=at, order=order, uniform=uniform, space=space, time=time, **parameters)
-    for m in sorted({m for row in exact.entries for entry in row for _, *orders in entry for m in orders if m}):
+    for m in sorted(
+        {m for row in exact.entries for entry in row for power in entry for m in _orders(exact, power)} - {0}
+    ):
         try:
             multiplier is None or multiplier(np.array([1.0]), m)
         except (LookupError, ValueError, NotImplementedError):
@@ -139,6 +139,10 @@ def pencil(
                 f"the multiplier does not know the derivative of order {m} that the equations contain"
             ) from None
     return exact.pencil(multiplier)
+
+
+def _orders(symbol, power):
+    return power[1:-2] if symbol.operators else power[1:]
 
 
 def linearise(
@@ -188,7 +192,10 @@ def _matrix(text, at, order, uniform, space, time, parameters):
             if not (order == "maximal" and is_lower(power, row[name])) and coefficient != 0:
                 row[name][power] = coefficient
                 n, *orders = power
-                wave = sp.prod((sp.I * k) ** m for k, m in zip(xi, orders, strict=False))
+                wave = sp.prod((sp.I * k) ** m for k, m in zip(xi, orders[: len(xi)], strict=True))
+                if system.operators:
+                    length = sp.Abs(xi[0]) if system.dim == 1 else sp.sqrt(sum(k**2 for k in xi))
+                    wave *= (-sp.I * sp.sign(xi[0])) ** orders[-2] * length ** orders[-1]
                 entry = parts.setdefault(n, sp.zeros(size))
                 entry[r, system.unknowns.index(name)] += coefficient * wave
     S, E = (parts.get(n, sp.zeros(size)) for n in (0, 1))

@@ -17,9 +17,11 @@ from primer.analysis.loss import loss
 from primer.analysis.outcome import Kind, Verdict, undecided
 from primer.analysis.poles import of_law, on_curves
 from primer.analysis.puiseux import branches
+from primer.analysis.quadratic import quadratic
 from primer.analysis.roots import DIGITS
 from primer.analysis.scales import scales
 from primer.analysis.supremum import along_line, exact_growth, in_plane, rate, ray
+from primer.analysis.symmetry import reduced
 
 
 def verdict(
@@ -38,11 +40,12 @@ def verdict(
     Parameters
     ----------
     pde : str, Symbol or Pencil
-        equations such as "u_t = -u_xx", in x or in x and y, as people write them (``primer help equations``); ``at``,
+        equations such as "u_t = -u_xx", in x, y and z, as people write them (``primer help equations``); ``at``,
         ``order``, ``uniform``, ``space``, ``time`` and ``parameters``, for text only, are those of
         :func:`primer.linearise`. Where a pencil's entries are polynomials in xi its verdict is as good as they are in
         double precision; where they are not it is a fit, ``exact`` is False, and it may be undecided: beside
-        logarithms, exponentials, or oscillations without bound.
+        logarithms, exponentials, or oscillations without bound. So it is in three space variables, unless growth is the
+        same in all directions or about an axis, as it is about a state at rest or in one magnetic field.
 
     Returns
     -------
@@ -66,16 +69,28 @@ def verdict(
 def _verdict(pde, **arguments):
     try:
         exact = exact_symbol(pde, **arguments)
-    except NotPolynomialError:
-        return computed(pde)
-    found = _judged(exact)
+    except NotPolynomialError as problem:
+        if problem.symbol is None:
+            return computed(pde)
+        exact, found = problem.symbol, computed(problem.symbol.pencil())
+    else:
+        found = _judged(exact) if exact.dim < 3 else _in_space(exact)
     if exact.uniform:
         return found
     note = "The base state varies: this is about short waves at a point."
     return replace(found, unstable=False, reason=f"{found.reason} {note}")
 
 
-def _judged(symbol):
+def _in_space(symbol):
+    """Three space variables: exactly where symmetry, or a quadratic form, leaves fewer; else by computation."""
+    fewer = reduced(symbol)
+    if fewer:
+        return _judged(*fewer)
+    return quadratic(symbol) or computed(symbol.pencil())
+
+
+def _judged(symbol, basis=None):
+    """The verdict in one or two space variables; ``basis`` are the vectors along which they lie in space."""
     D = symbol.determinant
     real = _is_real(D)
     if symbol.dim == 2:
@@ -83,7 +98,9 @@ def _judged(symbol):
         if math.isinf(limit) and limit > 0:
             return undecided(f"growth is unbounded near |xi| = {k:.4g}, on a curve where a time derivative drops out")
     law, direction, drift, doubt = (_along_line if symbol.dim == 1 else _in_plane)(symbol, real)
-    where = "" if symbol.dim == 1 else f" in the direction ({direction[0]:.4g}, {direction[1]:.4g})"
+    if basis:
+        direction = tuple(float(sum(d * b[j] for d, b in zip(direction, basis, strict=True))) + 0.0 for j in range(3))
+    where = "" if symbol.dim == 1 else f" in the direction ({', '.join(f'{x:.4g}' for x in direction)})"
     if law.exponent > BEYOND / 20:
         reason = (
             f"Growth is unbounded at every |xi|, near the direction{where[17:]}, where a time derivative drops out."

@@ -6,6 +6,7 @@
 
 The same derivative:  u_xx  u_{xx}  ∂_x∂_x u  ∂²u/∂x²  d²u/dx²  dx(dx(u))  (u)_xx
   \\partial_{xx} u    \\frac{\\partial^2 u}{\\partial x^2}    and of a bracket:  d/dx(u u_x)
+Of symbol -i sign(xi) and |xi|, on what is linear:  H(u_xx + 2u)  absD(u)
 In all space variables:  lap(u)  Δu  ∇²u   div(D grad(u))  ∇·(D∇u)   |grad(u)|^2
 An operator takes the next name or bracket and no more.
 

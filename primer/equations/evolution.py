@@ -18,6 +18,7 @@ from primer.equations.terms import (
     whole_power,
 )
 from primer.equations.text import PDEError, parse
+from primer.equations.tree import OPERATORS
 from primer.equations.unknowns import unknowns, uses
 from primer.equations.variables import MARK
 
@@ -44,6 +45,8 @@ def first_order(text, given=()):
     used = uses(equations, ("i", "pi"))
     if any(base == "y" or "y" in own + around for base, own, around in used):
         raise PDEError(f"there is a second space variable, y: {NOT_MARCHED}")
+    if any(letter in own + around for _, own, around in used for letter in OPERATORS.values()):
+        raise PDEError(f"H(u) and absD(u) look everywhere at once: {NOT_MARCHED}")
     names = unknowns(used, len(equations), given)
     orders = {name: max((own + around).count("t") for base, own, around in used if base == name) for name in names}
     for name, order in orders.items():

@@ -1,6 +1,7 @@
 """Equations as LaTeX, as they are written in a text: derivatives as subscripts, quotients as fractions."""
 
 from primer.equations.text import parse, split_name
+from primer.equations.tree import OPERATORS
 
 _LOWER = "alpha beta gamma delta epsilon zeta eta theta iota kappa lambda mu nu xi pi rho sigma tau upsilon phi chi psi"
 _UPPER = "Gamma Delta Theta Lambda Xi Pi Sigma Upsilon Phi Psi Omega"
@@ -96,4 +97,7 @@ def _call(node):
 
 
 def _derivative(node):
+    for letter, name in ((OPERATORS["H"], r"\mathcal{H}"), (OPERATORS["absD"], r"|\partial_x|")):
+        if node.value == letter:
+            return rf"{name}\left({_latex(node.operands[0])[0]}\right)", _ATOM
     return rf"\left({_latex(node.operands[0])[0]}\right)_{{{node.value}}}", _ATOM

@@ -10,7 +10,7 @@ import sympy as sp
 
 from primer.equations.error import PDEError
 from primer.equations.text import Source, understand
-from primer.equations.tree import split_name
+from primer.equations.tree import OPERATORS, split_name
 from primer.equations.unknowns import VARIABLES, unknowns, uses
 
 ORDER = 12  # the highest derivative
@@ -36,7 +36,9 @@ class System:
     sides : tuple               the F themselves
     source : Source             what the text calls all of them
     slopes : tuple of dicts     for each equation {(unknown, (n, a, b)): slope}, the slope of F by the unknown's n-th
-                                t-, a-th x- and b-th y-derivative; in three space variables (n, a, b, c)
+                                t-, a-th x- and b-th y-derivative; in three space variables (n, a, b, c). Where
+                                H(u) or absD(u) occur, how often stands behind these two numbers, last
+    operators : bool            whether they occur
     """
 
     text: str
@@ -47,6 +49,7 @@ class System:
     places: dict = field(default_factory=dict, compare=False)
     sides: tuple = ()
     source: Source | None = field(default=None, compare=False, repr=False)
+    operators: bool = False
 
     def outside(self, name):
         """What the text calls a name, in canonical letters."""
@@ -87,21 +90,26 @@ def _read(text, given, named, space, time, functions):
     builder = _Builder(source, found)
     number = 4 if source.dim == 3 else 3
     sides = tuple(builder.build(left) - builder.build(right) for left, right in source.equations)
-    slopes = tuple(_slopes(F, found, number) for F in sides)
+    letters = "".join(split_name(symbol.name)[1] for F in sides for symbol in F.free_symbols)
+    operators = any(letter in letters for letter in OPERATORS.values())
+    if OPERATORS["H"] in letters and source.dim > 1:
+        raise PDEError("H(u), the Hilbert transform, is that along x in one space variable only")
+    counted = "txyz"[:number] + "".join(OPERATORS.values()) * operators
+    slopes = tuple(_slopes(F, found, counted) for F in sides)
     names: dict = {}
     for (base, _, _), place in used.items():
         if base not in found and base not in VARIABLES:
             names.setdefault(base, place)
-    return System(source.text, found, tuple(names), source.dim, slopes, names, sides, source)
+    return System(source.text, found, tuple(names), source.dim, slopes, names, sides, source, operators)
 
 
-def _slopes(F, unknowns, number):
+def _slopes(F, unknowns, counted):
     found = {}
     for symbol in sorted(F.free_symbols, key=str):
         base, letters = split_name(symbol.name)
         slope = sp.diff(F, symbol) if base in unknowns else 0
         if slope != 0:
-            found[base, tuple(letters.count(c) for c in "txyz"[:number])] = slope
+            found[base, tuple(letters.count(c) for c in counted)] = slope
     return found
 
 
@@ -197,9 +205,19 @@ class _Builder:
         argument = self.build(node.operands[0])
         return (_CALLS.get(node.value) or getattr(sp, node.value))(argument)
 
+    def check_linear(self, value, node):
+        """Fail unless an operator that is no derivative is of something linear with constant coefficients."""
+        own = [s for s in value.free_symbols if split_name(s.name)[0] in self.unknowns]
+        slopes = [sp.diff(value, s) for s in own]
+        varying = {split_name(s.name)[0] for slope in slopes for s in slope.free_symbols} & {*self.unknowns, *VARIABLES}
+        if varying or sp.expand(value - sum(s * slope for s, slope in zip(own, slopes, strict=True))) != 0:
+            self.fail("H and absD are of what is linear with constant coefficients, as H(u_xx + 2*u)", node)
+
     def derivative(self, node):
         value = self.build(node.operands[0])
         for letter in node.value:
+            if letter in OPERATORS.values():
+                self.check_linear(value, node)
             change = [sp.diff(value, sp.Symbol(letter))]
             for symbol in sorted(value.free_symbols, key=str):
                 base, letters = split_name(symbol.name)

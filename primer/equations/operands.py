@@ -8,12 +8,23 @@ import re
 from primer.equations import functions, operators, vectors
 from primer.equations.error import ask
 from primer.equations.functions import COMPOSED, FUNCTIONS, OTHER_NAMES
-from primer.equations.tree import Node
+from primer.equations.tree import OPERATORS, Node
 from primer.equations.vectors import Vector
+
+DEPTH = 80  # far beyond what a person would write by hand
 
 
 def primary(p):
     """A number, a name, a bracket, a call, or an operator with what it works on."""
+    p.operators += 1  # one upon the other, in brackets or not
+    if p.operators > DEPTH:
+        p.fail(f"operators are nested more than the {DEPTH} levels allowed")
+    node = _primary(p)
+    p.operators -= 1
+    return node
+
+
+def _primary(p):
     token = p.token
     if token.kind == "number":
         digits, imaginary = p.take().value
@@ -62,6 +73,8 @@ def named(p):
     if not by and base[0] == "d" and (letters := p.variables.derivatives(base[1:])):
         operand = p.scalar(p.bracket())
         return differentiated(p, vectors.derived(operand, p.letters(letters, token.place), token.place))
+    if not by and base in OPERATORS and base not in p.variables.evolved and base not in p.given:
+        return differentiated(p, vectors.derived(p.scalar(p.bracket()), OPERATORS[base], token.place))
     if not by and base in p.given:
         return differentiated(p, p.given.node(base, arguments(p), token.place, p))
     return ambiguous_call(p, token)

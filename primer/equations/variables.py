@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 from functools import cached_property
 
 from primer.equations.error import PDEError
-from primer.equations.tree import split_name
+from primer.equations.tree import OPERATORS, split_name
 
 MARK = "\u1d5b"  # a small raised v: a compatibility letter, so that no canonical name holds it
 GREEK = [
@@ -127,6 +127,9 @@ class Variables:
     def outside(self, name, said=False):
         """What the text calls a name inside, in canonical letters; or as it was first ``said``."""
         base, letters = split_name(name)
+        for operator, letter in OPERATORS.items():
+            if letter in letters:
+                return f"{operator}({self.outside(name.replace(letter, '', 1).removesuffix('_'), said)})"
         spelt = self.spelt.get(base) if said else None
         base = self.outer.get(base) or spelt or base.removesuffix(MARK)
         return base + "_" * bool(letters) + "".join(self.outer.get(letter, letter) for letter in letters)

@@ -124,4 +124,4 @@ def check_04_3(answer: str, seed: int = 0) -> Feedback:
     """Whether ``answer`` is the :class:`primer.study.diagnosis.Kind` of the run; a ``Feedback``."""
     kind = _KINDS[_third(seed)]
     hints = {other: hint for other, hint in _HINTS.items() if other != kind}
-    return choose(answer, kind, "and diagnose says so without running it.", hints)
+    return choose(answer, kind, "and diagnose says so too.", hints)

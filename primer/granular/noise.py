@@ -9,6 +9,9 @@ from primer.granular.dispersion import growth_rate
 from primer.granular.linearisation import coefficients, reduced
 
 _LARGEST = 1e20  # of a wavenumber: its powers must be finite
+_NEAR = 5.37  # norm up to which the rational approximation of order 13 to e^z is exact to rounding (Higham 2005)
+_HIGHAM = (64764752532480000, 32382376266240000, 7771770303897600, 1187353796428800, 129060195264000, 10559470521600,
+           670442572800, 33522128640, 1323241920, 40840800, 960960, 16380, 182, 1)  # fmt: skip
 _PARTS = 10  # the growth is measured over the last of this many parts of the time
 
 
@@ -72,9 +75,7 @@ def noise_after(law, state, n, t, side=200.0, seed=1, smooth=2.5):
         if c.incompressible:
             step, value = _step_incompressible(c, xi, q[:, moving], t / _PARTS)
         else:
-            from scipy.linalg import expm
-
-            step, value = expm(-reduced(c, xi) * (t / _PARTS)), q[:, moving].T
+            step, value = _exponentials(-reduced(c, xi) * (t / _PARTS)), q[:, moving].T
         values = [value]
         for _ in range(_PARTS):
             values.append((step @ values[-1][..., None])[..., 0])
@@ -99,6 +100,27 @@ def noise_after(law, state, n, t, side=200.0, seed=1, smooth=2.5):
         measured=np.array([rates[shell == s].max() for s in shells]),
         predicted=np.array([symbol[shell == s].max() for s in shells]),
     )
+
+
+def _exponentials(A):
+    """exp(A) of many small matrices (..., m, m) at once, by scaling, Pade's approximation and squaring.
+
+    N. J. Higham, SIAM J. Matrix Anal. Appl. 26 (2005), Algorithm 2.3 with order 13. One by one, as scipy does
+    them, they take five times as long, and far longer where each sets threads of BLAS in motion.
+    """
+    norm = np.abs(A).sum(axis=-2).max(axis=-1)
+    times = np.ceil(np.log2(np.maximum(np.where(np.isfinite(norm), norm, 0.0) / _NEAR, 1.0))).astype(int)
+    A = A * np.exp2(-times.astype(float))[..., None, None]
+    square, power = A @ A, np.eye(A.shape[-1])
+    odd = even = np.zeros_like(A)
+    for b_even, b_odd in zip(_HIGHAM[::2], _HIGHAM[1::2], strict=True):
+        odd, even, power = odd + b_odd * power, even + b_even * power, power @ square
+    odd = A @ odd
+    found = np.linalg.solve(even - odd, even + odd)
+    for done in range(times.max(initial=0)):
+        more = times > done
+        found[more] = found[more] @ found[more]
+    return found
 
 
 def _field(n, moving, value):

@@ -17,6 +17,7 @@ from primer.equations.latex import latex
 from primer.equations.slopes import Linearisation, linearised
 from primer.equations.stages import Evolution, evolution
 from primer.equations.text import PDEError
+from primer.equations.variables import canonical
 from primer.problems.data import Datum, data, names, on
 from primer.types import ArrayLike, Derivative
 
@@ -75,6 +76,7 @@ class PDE:
         period: float = 2 * math.pi,
         **parameters: Any,
     ) -> None:
+        parameters = {canonical(name): value for name, value in parameters.items()}  # nu is ν
         for name in parameters:
             if name in _MEANING:
                 raise PDEError(f"{name} has a meaning of its own and cannot be a parameter")
@@ -155,6 +157,10 @@ class PDE:
 
     def forcing(self, x: ArrayLike) -> Known:
         """What the right-hand side needs of the parameters and of x alone, so that a time loop computes it once."""
+        return self.known(x)
+
+    def known(self, x: ArrayLike) -> Known:
+        """The same, under the name that all problems made from texts have for it."""
         return known(self.evolution, points(x), self.parameters)
 
     def rhs(

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from primer.analysis.sphere import directions
 from primer.analysis.symbol import Symbol
 from primer.analysis.symbolic import linearise, symbol
 from primer.analysis.verdict import Kind, Verdict, verdict
@@ -20,7 +21,7 @@ XI = np.geomspace(1e-2, 1e3, 121)
 TOY = "u_t = v_x; v_t = eps*u*v_xx + u_x - v - sin(x)"
 _ANGLES = np.arange(32) * np.pi / 16  # of the wavevector, in two space variables
 _NOISE = 1e-11  # a real part so small, relative to its eigenvalue, is rounding
-_WAVES = ("lambda", "xi", "xi_1", "xi_2")
+_WAVES = ("lambda", "xi", "xi_1", "xi_2", "xi_3")
 
 
 @dataclass(frozen=True, eq=False)
@@ -156,6 +157,9 @@ def _growth(exact, k, found, grid=None):
     pencil = exact.pencil(_multiplier(grid) if grid else None)
     if exact.dim == 1:
         xi = np.multiply.outer(k, [1.0, -1.0])
+    elif exact.dim == 3:
+        all_around = np.column_stack([directions(), found.direction]) if found.direction else directions()
+        xi = np.multiply.outer(k, all_around).transpose(1, 0, 2)
     else:
         angle = np.append(_ANGLES, np.arctan2(*found.direction[::-1]) if found.direction else 0.0)
         xi = np.stack([np.multiply.outer(k, np.cos(angle)), np.multiply.outer(k, np.sin(angle))])

@@ -11,7 +11,7 @@ from primer.problems.pde import PDE
 from primer.problems.toy import Toy
 from primer.schemes.grid import CENTRAL
 from primer.schemes.kernel import BOOK, kernel
-from primer.schemes.passes import passes
+from primer.schemes.passes import Form, passes
 from primer.schemes.pointwise import KINDS
 from primer.schemes.slope import reach, width
 from primer.schemes.watch import watch
@@ -38,9 +38,14 @@ def of_text(problem):
     return getattr(type(problem), "rhs", None) in (Toy.rhs, BackwardHeat.rhs, PDE.rhs)
 
 
+def has_numpy_s_bits(problem):
+    """Whether machine code would do what NumPy does: always with real numbers, with complex ones as far as is known."""
+    return of_text(problem) and not (getattr(problem, "is_complex", False) and fused() is None)
+
+
 def compilable(problem, n):
     """Whether a problem on n points can be marched by machine code: its right-hand side is that of its text."""
-    if not of_text(problem):
+    if not has_numpy_s_bits(problem):
         return False
     stencils = {m: CENTRAL[m] for m in problem.evolution.orders if m in CENTRAL}
     return len(stencils) == len(problem.evolution.orders) and reach(stencils) <= n
@@ -50,15 +55,23 @@ def fits_a_block(problem, asked):
     """What problems must have in common to be members of one block, or None where this one must be marched alone."""
     if asked.numbers.dtype not in (np.float32, np.float64) or not compilable(problem, asked.grid.n):
         return None
-    _, x, state, _ = asked.start(problem)
-    form = Numbers(problem, x, state.real.dtype).form(state.dtype.kind == "c")
+    if getattr(problem, "is_complex", False):
+        _, x, state, _ = asked.start(problem)
+        form = Numbers(problem, x, state.real.dtype).form(True)
+    else:
+        form = _all_real(problem.evolution)
     return None if form.clock or passes(problem.evolution, form).calls else (problem.evolution, form)
+
+
+@lru_cache(maxsize=256)
+def _all_real(evolution):
+    return Form(False, *((False,) * len(part) for part in (evolution.constants, evolution.fixed, evolution.clocks)))
 
 
 @lru_cache(maxsize=256)
 def _step(evolution, kind, lanes, members, form):
     """The code of the paper's step for an evolution."""
-    return machine_code(kernel(evolution, CENTRAL, kind, lanes, members, form, fused()))
+    return machine_code(kernel(evolution, CENTRAL, kind, lanes, members, form, form.fields and fused()))
 
 
 @lru_cache

@@ -23,7 +23,7 @@ class Still:
         return self.alt
 
     def _repr_mimebundle_(self, **_):
-        return {"image/png": self.png, "text/plain": str(self)}, {"image/png": {"alt": self.alt}}
+        return {"text/html": picture_html(self.png, self.alt), "text/plain": str(self)}
 
 
 def picture_html(png, alt):

@@ -205,7 +205,7 @@ class Explorer:
         data = self.widget._repr_mimebundle_(**options)
         data = data[0] if isinstance(data, tuple) else data
         text = f"{type(self).__name__}.from_state({self.state!r})\n{self.verdict}"
-        return {**data, "text/plain": text}
+        return {**data, "text/html": picture_html(self.png, self.verdict), "text/plain": text}
 
     @classmethod
     def _all(cls):

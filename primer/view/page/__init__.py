@@ -127,9 +127,10 @@ def _control(shelf):
 
 def _is_number(text):
     try:
-        return bool(float(text) + 1)
+        float(text)
     except ValueError:
         return False
+    return True
 
 
 def _button(atlas, name, state):

@@ -40,8 +40,8 @@ PAGES = {
     PDEExplorer: (
         "pde",
         "Is this PDE ill posed, and would a grid show it?",
-        "A PDE, frozen at a base state: do its short waves grow, how fast, and would a grid show it? Any other "
-        "equation is for the package: <code>primer verdict</code>.",
+        "A PDE: do its short waves grow, frozen at a base state, and what does it do itself on N, 2N and 4N points? "
+        "Any other equation is for the package: <code>primer verdict</code>, <code>primer run</code>.",
     ),
 }
 _VALUES: dict = {
@@ -69,7 +69,7 @@ _VALUES: dict = {
         "ratio": (0.1, 0.2, 0.3, 0.4, 0.5, 0.7, 0.95),
         "k": (0.1, 1.0, 10.0),
     },
-    PDEExplorer: {"n": (8, 16, 32, 64, 128, 256, 512)},
+    PDEExplorer: {"n": (16, 32, 64, 128), "when": (0.0, 0.25, 0.5, 0.75, 1.0)},
 }
 
 
@@ -77,11 +77,11 @@ def shelves(explorer):
     """The shelves of an explorer's page; the texts of the PDE explorer stand on one, as its presets."""
     found = []
     if explorer is PDEExplorer:
-        made = [
-            (name, defaults(explorer.controls) | read_state(explorer.controls, s)) for name, s in _presets(explorer)
-        ]
-        kept = ("pde", "at", "order")
-        places = tuple((name, {key: state[key] for key in kept}) for name, state in made)
+        kept = {name: _whole(explorer, state) for name, state in _presets(explorer)}
+        for values in kept.values():
+            for name in _VALUES[explorer]:
+                del values[name]
+        places = tuple(kept.items())
         found.append(Shelf("equation", "equation", places))
     for control in (*explorer.controls, *explorer.looks):
         if control.name in _VALUES[explorer]:
@@ -99,8 +99,10 @@ def page(made):
     explorer = made.explorer
     _, title, lead = PAGES[explorer]
     if explorer is PDEExplorer:
-        closed = [closed_form(**said) for _, said in made.shelves[0].places]
-        return explorer_page(made, title, lead, {"equation": "toy, u < 0", "n": "64"}, closed=closed)
+        named = ("pde", "at", "order", "uniform")
+        closed = [closed_form(**{name: said[name] for name in named}) for _, said in made.shelves[0].places]
+        begin = {"equation": "toy, u < 0", "n": "64", "when": "1"}
+        return explorer_page(made, title, lead, begin, closed=closed)
     presets = {name: state for name, text in _presets(explorer) if (state := _on_shelf(explorer, text)) is not None}
     return explorer_page(made, title, lead, _on_shelf(explorer, ""), presets)
 
@@ -109,9 +111,15 @@ def _presets(explorer):
     return explorer.presets.items()
 
 
+def _whole(explorer, text):
+    """Name -> value of a state, what it leaves out as the explorer has it."""
+    controls = (*explorer.controls, *explorer.looks)
+    return defaults(controls) | explorer._completed(read_state(controls, text))
+
+
 def _on_shelf(explorer, text):
     """Name -> text of the places nearest to a state of the explorer's; None if one is further off than a tenth."""
-    values = defaults((*explorer.controls, *explorer.looks)) | read_state((*explorer.controls, *explorer.looks), text)
+    values = _whole(explorer, text)
     found = {}
     for one in shelves(explorer):
         wanted, offered = values[one.name], _VALUES[explorer][one.name]

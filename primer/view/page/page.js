@@ -136,6 +136,7 @@
       const pre = document.createElement("pre");
       pre.textContent = parts.map((each) => data.parts[each].text).join("\n");
       box.replaceChildren(pre);
+      find(`key-${k}`).replaceChildren();
       return;
     }
     const svg = node("svg", { viewBox: `0 0 ${W} ${H}`, role: "img", "aria-label": words(frame, key) });
@@ -229,7 +230,10 @@
   function showOwn() {
     if (!data.closed.length || own === at[0]) return;
     own = at[0];
-    const form = data.closed[own], boxes = form.names.map((name, k) => {
+    const form = data.closed[own];
+    find("own").hidden = !form;
+    if (!form) return;
+    const boxes = form.names.map((name, k) => {
       const control = document.createElement("div"), label = document.createElement("label"), box = document.createElement("input");
       control.className = "control";
       Object.assign(box, { type: "text", inputMode: "decimal", id: `own-${name}`, value: form.values[k] });
