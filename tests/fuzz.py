@@ -200,7 +200,7 @@ def main():
     for (call, outcome), count in sorted(counts.items()):
         print(f"{call:13} {outcome:9} {count}")
     for call, text, arguments, fault in faults:
-        print(f"FAULT in {call}({text!r}, {arguments}): {type(fault).__name__}: {fault}")
+        print(f"FAULT in {call}({text[:200]!r}, {arguments}): {type(fault).__name__}: {fault}")
     raise SystemExit(bool(faults))
 
 

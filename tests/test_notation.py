@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 import sympy as sp
 
-from primer import PDEError, growth_laws, growth_rates, linearise, verdict
+from primer import PDE, PDEError, growth_laws, growth_rates, linearise, verdict
 from primer.__main__ import main
 from primer.equations import __doc__ as taught
 from primer.equations.linear import read
@@ -366,6 +366,29 @@ def test_the_help_teaches_the_language_in_a_screen(capsys):
         "u_t = lap(u) + ∇·(D∇u) + d/dx(u u_x) + |grad(u)|^2",
     ):
         assert linearise(text, D=1) if "D" in text else linearise(text)
+
+
+def test_a_problem_takes_the_same_language():
+    plain = PDE("rho_t = nu*rho_xx - (rho^2/2)_x", {"rho": "2 + sin(x)"}, nu=0.1)
+    spelt = r"\partial_t \rho + \partial_x\left(\frac{\rho^2}{2}\right) = \nu \Delta \rho"
+    x = np.linspace(-3, 3, 8)
+    state = plain.initial(x)
+    for problem in (PDE(spelt, {"ρ": "2 + sin(x)"}, ν=0.1), PDE("ρ_t = ν ρ_xx - ρ ρ_x", {"rho": "2 + sin(x)"}, nu=0.1)):
+        assert (problem.fields, problem.parameters) == (plain.fields, plain.parameters)
+    for derivative in (lambda f, m: np.cos(f + m), lambda f, m: f * m):
+        found = PDE(spelt, {"ρ": "2"}, ν=0.1).rhs(x, state, derivative)
+        assert found[0] == pytest.approx(-derivative(state[0] ** 2 / 2, 1) + 0.1 * derivative(state[0], 2))
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["∂" * 500, "u_t = " + r"\sin " * 400, "u_t = " + "Δ" * 300 + "u", "u_t = " + "√" * 300 + "u", "u_t = " + "|" * 500,
+     "u_t = " + r"\frac{" * 200, "u_t = " + "[({" * 60, "u_t = " + r"\dot " * 300 + "u", "∂∇u∂x = u",
+     "u_t = ∂(∇u)/∂x + u_y"],
+)  # fmt: skip
+def test_operators_without_end_are_refused_in_a_sentence(text):
+    with pytest.raises(PDEError):
+        parse(text)
 
 
 def test_a_parse_takes_milliseconds():

@@ -13,7 +13,7 @@ class Cursor:
     def __init__(self, text, tokens, variables, given=None):
         self.text, self.tokens, self.variables = text, tokens, variables
         self.given: Any = {} if given is None else given  # the functions that a reader brings along
-        self.next = self.depth = 0
+        self.next = self.depth = self.operators = 0
         self.open: list[str] = []
 
     @property

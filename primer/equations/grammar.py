@@ -17,10 +17,11 @@ says both.
 from primer.equations import operands
 from primer.equations.cursor import Cursor
 from primer.equations.functions import minus
+from primer.equations.operands import DEPTH
 from primer.equations.tree import Node
 from primer.equations.vectors import Vector, added, multiplied, squared
 
-DEPTH, EQUATIONS = 80, 10  # far beyond what a person would write by hand
+EQUATIONS = 10  # far beyond what a person would write by hand
 _CLOSING = {"(": ")", "[": "]", "{": "}"}
 
 

@@ -11,9 +11,20 @@ from primer.equations.functions import COMPOSED, FUNCTIONS, OTHER_NAMES
 from primer.equations.tree import OPERATORS, Node
 from primer.equations.vectors import Vector
 
+DEPTH = 80  # far beyond what a person would write by hand
+
 
 def primary(p):
     """A number, a name, a bracket, a call, or an operator with what it works on."""
+    p.operators += 1  # one upon the other, in brackets or not
+    if p.operators > DEPTH:
+        p.fail(f"operators are nested more than the {DEPTH} levels allowed")
+    node = _primary(p)
+    p.operators -= 1
+    return node
+
+
+def _primary(p):
     token = p.token
     if token.kind == "number":
         digits, imaginary = p.take().value

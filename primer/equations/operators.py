@@ -107,10 +107,11 @@ def partial(p, place):
         return applied(p, lambda node: vectors.derived(p.scalar(node), letters, place), place)
     if not p.begins_operand():
         p.fail("∂ is written ∂_x u, ∂u/∂x or ∂/∂x (u)", place)
+    begin = p.token.place
     factors = [("*", place, p.power())]
     while p.begins_operand():
         factors.append(("*", place, p.power()))
-    operand = p.scalar(p.vectors(place, vectors.multiplied, factors, factors[0][2].place))
+    operand = p.scalar(p.vectors(place, vectors.multiplied, factors, begin))
     if not (p.at("/") and p.tokens[p.next + 1].value in ("∂", "(")):
         p.fail("∂u must stand over something, as in ∂u/∂x", place)
     p.take()
@@ -160,13 +161,9 @@ def below(p, order, place):
 
 def applied(p, operator, place):
     """The operator on the name, bracket or operator that follows; what might belong to it must not follow."""
-    p.depth += 1
-    if p.depth > 80:
-        p.fail("operators are nested more than the 80 levels allowed")
     if not p.begins_operand() or p.token.kind == "number":
         p.fail("an operator must be followed by what it works on, a name or a bracket")
     operand = operands.primary(p)
-    p.depth -= 1
     found = operator(operand)
     written = p.text[place : p.tokens[p.next - 1].end].strip()
     written = written if len(written) <= 30 else "..."

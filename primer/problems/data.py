@@ -11,6 +11,7 @@ from primer.checks import shown
 from primer.equations.evaluate import Scalars, value
 from primer.equations.terms import Builder
 from primer.equations.text import PDEError, parse_expression, split_name
+from primer.equations.variables import canonical
 
 #: A text, a number, a tuple of samples on a grid of that many points, or a function of x.
 Datum: TypeAlias = str | float | complex | tuple | Callable
@@ -20,6 +21,7 @@ def data(name: str, fields: tuple[str, ...], given: Any) -> tuple[tuple[str, Dat
     """((field, datum), ...) in the order of the fields, from a dict; ``name`` is the argument's."""
     if not isinstance(given, Mapping):
         raise TypeError(f"{name} must be a dict of the fields' data such as {{'u': 'sin(x)'}}, got {shown(given)}")
+    given = {canonical(field) if isinstance(field, str) else field: datum for field, datum in given.items()}
     missing = [field for field in fields if field not in given]
     if missing:
         raise PDEError(f"{name} must have data for {', '.join(fields)}, got none for {', '.join(missing)}")

@@ -17,6 +17,7 @@ from primer.equations.latex import latex
 from primer.equations.slopes import Linearisation, linearised
 from primer.equations.stages import Evolution, evolution
 from primer.equations.text import PDEError
+from primer.equations.variables import canonical
 from primer.problems.data import Datum, data, names, on
 from primer.types import ArrayLike, Derivative
 
@@ -75,6 +76,7 @@ class PDE:
         period: float = 2 * math.pi,
         **parameters: Any,
     ) -> None:
+        parameters = {canonical(name): value for name, value in parameters.items()}  # nu is ν
         for name in parameters:
             if name in _MEANING:
                 raise PDEError(f"{name} has a meaning of its own and cannot be a parameter")
