@@ -162,7 +162,7 @@ def test_dilating_and_contracting_soil():
         (lambda: Pencil(lambda xi: [[xi, 0], [0, 1]], [[1]]), ValueError, "same size"),
         (lambda: Pencil([[1, 0], [0, 0]], np.diag([1, 0])), ValueError, "determine"),
         (lambda: Pencil("S", [[1]]), TypeError, "matrix"),
-        (lambda: Pencil([[1]], [[1]], dim=3), ValueError, "dim"),
+        (lambda: Pencil([[1]], [[1]], dim=4), ValueError, "dim"),
         (lambda: growth(navier_stokes(), [1.0, 2.0, 3.0]), ValueError, "shape"),
         (lambda: growth(navier_stokes(), 1.0), ValueError, "shape"),
         (lambda: max_growth(navier_stokes(), 0.0), ValueError, "positive"),
@@ -195,7 +195,7 @@ def test_sympy_matrices_are_symbols():
     np.testing.assert_allclose(growth(plane, [[1.0, 2.0], [5.0, 0.0]]), [4, -4])
     pseudo = Pencil(sympy.Matrix([[xi**2]]), sympy.Matrix([[1 + xi**2]]))
     assert growth(pseudo, 3.0) == pytest.approx(-0.9)
-    with pytest.raises(ValueError, match="S must be a matrix in xi, or in xi_1 and xi_2, alone, got symbols a, xi"):
+    with pytest.raises(ValueError, match="S must be a matrix in xi, or in xi_1, xi_2, xi_3, alone, got symbols a, xi"):
         Pencil(sympy.Matrix([[sympy.Symbol("a") * xi]]), sympy.eye(1))
 
 
@@ -264,8 +264,8 @@ EYE = np.eye(2)
         (lambda: Pencil(np.diag([1, 0]), np.diag([1, 0])), ValueError,
          "the pencil is singular: det(lambda E + S) vanishes identically, so the equations do not determine the "
          "unknowns"),
-        (lambda: Pencil(EYE, EYE, dim=3), ValueError, "dim must be an integer >= 1 and <= 2, got 3"),
-        (lambda: Pencil(EYE, EYE, dim=0), ValueError, "dim must be an integer >= 1 and <= 2, got 0"),
+        (lambda: Pencil(EYE, EYE, dim=4), ValueError, "dim must be an integer >= 1 and <= 3, got 4"),
+        (lambda: Pencil(EYE, EYE, dim=0), ValueError, "dim must be an integer >= 1 and <= 3, got 0"),
         (lambda: growth(navier_stokes(), [1.0, 2.0, 3.0]), ValueError,
          "xi must have shape (2, ...) for two space variables, got shape (3,)"),
         (lambda: growth(navier_stokes(), 1.0), ValueError,
@@ -394,7 +394,7 @@ def test_which_call_of_a_symbol_works_says_the_number_of_space_variables():
         1, 2, 2, 2, 1
     ]  # fmt: skip
     with pytest.raises(
-        ValueError, match=r"^E must be a matrix in xi, or in xi_1 and xi_2, alone, got symbols xi, xi_1$"
+        ValueError, match=r"^E must be a matrix in xi, or in xi_1, xi_2, xi_3, alone, got symbols xi, xi_1$"
     ):
         Pencil(one, sympy.Matrix([[xi + xi_1]]))
     plane = Pencil(sympy.Matrix([[xi_1 + 2 * sympy.I * xi_2]]), sympy.Matrix([[2]]))
