@@ -97,7 +97,7 @@ runs = [ftcs(Advection(), t_end=0.1), *ftcs_ensemble([Toy(a) for a in np.linspac
 runs += refine(heat, (25, 50), t_end=0.1, seed=(3, 1e-9)).runs
 slopes = refine(toy, grids, dt=lambda n: 1 / n**2, seed=lambda n: Seed(n // 2, 1e-9), t_end=0.1).dist_end[1:]
 ends = march_lines(toy, 16, 0.1, 5, FOURIER, RK8), march_lines(heat, 16, 0.1, 1, CENTRAL_4)
-u, v = reference(toy, [1.0, 2.0]).at(0.0)
+u, v = reference(toy, [0.25, 0.5]).at(0.0)
 numbers = run.dist[-1] * 2, run.problem.a, ends[0].blew_up, u[0] + toy.steady(0.0)[0]
 rates = toy.symbol([1, 2], u=0.5).real.max(), stable_dt(toy, 50) / 2, (grid_threshold(0.5).n or 0) + 1
 pencil = Pencil(lambda xi: [[xi**2]], np.eye(1))
@@ -112,7 +112,7 @@ ends_of_range = neutral_inertial_numbers(MuI(0.3, 0.6, 0.3)).round(3)
 words = diagnose(toy, seed=1e-9).reason.split(), ask_03_1(3).upper(), primer.__version__.split(".")
 times = blow_up_map([0.5], range(20, 22), t_end=0.1, table="map.csv", progress=False).t_blow_up[0]
 feedback, explorer, again = check_03_1(0.1).right, RefinementExplorer(a=0.5).state.split(","), primer.study.diagnose
-point = work_precision(toy, t_end=1.0, methods=[]).quickest("FTCS", 1e-3)
+point = work_precision(toy, t_end=0.5, methods=[]).quickest("FTCS", 1e-3)
 """
 WRONG = """
 ftcs(toy, n="many")
