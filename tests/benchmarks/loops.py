@@ -132,7 +132,7 @@ def against_py_pde(n=64):
         def rival(count, equation=equation, start=start, dt=t_end / steps):
             return equation.solve(start, t_range=count * dt, dt=dt, solver="euler", tracker=None, backend="numba")
 
-        times, more = [], 50_000
+        times, more = [], 500_000
         for count in (steps + more, steps):  # the difference has no compiling in it
             begin = time.perf_counter()
             final = rival(count)
@@ -141,7 +141,7 @@ def against_py_pde(n=64):
         run = ftcs(own, n, t_end / steps, t_end, record_every=steps)
         mine = seconds(lambda own=own, n=n, steps=steps, end=t_end: ftcs(own, n, end / steps, end, steps), 5)
         errors = [np.abs(f - interpolate(truth, at)).max() for f, at in ((run.final[0], run.x), (final.data, x))]
-        ratios = times[1] / mine, max(marching, 0) / mine
+        ratios = times[1] / mine, min(max(marching, 0), times[1]) / mine  # on a busy machine the difference is noise
         print(
             f"{name:22s} {steps:6d} steps: error {errors[0]:.2e}, py-pde {errors[1]:.2e}; "
             f"py-pde takes {ratios[0]:8.0f} times as long, {ratios[1]:6.0f} times without its compiling"
