@@ -27,6 +27,8 @@ from primer import (
     blow_up_map,
     cost_against_n,
     diagnose,
+    exact_march,
+    examine,
     ftcs,
     ftcs_ensemble,
     grid_threshold,
@@ -69,6 +71,11 @@ MARCH = RUN | {
 SHORT = {"n": 8, "dt": 1e-2, "t_end": 0.1}
 METHOD = Method("none", lambda toy, n, t_end: (Grid(n).x, TOY.initial(Grid(n).x), 0.1), (8,))
 COST = {"toy": [x for x in TOYS if x is not None and not isinstance(x, BackwardHeat)], "t_end": (*POSITIVE, 1e15)}
+
+
+def DECAY(fields, dt):
+    return fields / (1 + dt)
+
 
 TABLE = {
     "Toy": (Toy, {"a": 1.5, "eps": 0.01}, {"a": REAL, "eps": LEAST_0}),
@@ -175,9 +182,18 @@ TABLE = {
     "stable_dt": (stable_dt, {"problem": TOY, "n": 8, "u": 1.0}, {
         "problem": THING, "n": GRID, "u": (*(x for x in ARRAY if x is not None), []),
     }),
-    "diagnose": (diagnose, {"toy": TOY, **SHORT}, {
-        "toy": TOYS, **RUN, "n": (*GRID, 10**6), "seed": (*SEEDS, True, np.nan, np.inf, HUGE), "dtype": DTYPES,
-        "digits": DIGITS,
+    "exact_march": (exact_march, {"toy": TOY, **SHORT}, {
+        "toy": TOYS, **RUN, "digits": (0, -1, 2.5, "9", True, 1j, [9]), "record_every": (0, -1, 1.5, "x", [1]),
+        "blow_up_at": POSITIVE,
+    }),
+    "examine": (examine, {"step": DECAY, "state": lambda n: np.ones((1, n)), "n": [8, 16]}, {
+        "step": (None, 3, "x", lambda fields, dt: fields[..., 1:]),
+        "state": (None, 3, "x", lambda n: np.ones(n + 1), lambda n: np.full((1, n), np.inf)),
+        "n": (None, 3, "x", [], [0], [1.5]), "dt": (*POSITIVE,), "patience": (None, "x", -1, np.nan, 1j),
+    }),
+    "diagnose": (diagnose, {"problem": TOY, **SHORT}, {
+        "problem": (*THING, Toy), **RUN, "n": (*GRID, 10**6), "seed": (*SEEDS, True, np.nan, np.inf, HUGE),
+        "dtype": DTYPES, "digits": DIGITS,
     }),
     "blow_up_map": (
         lambda **options: blow_up_map(**options, progress=False),

@@ -46,6 +46,10 @@ def _fields(run, t):
     return run.snapshots[times[np.argmin(np.abs(times - t))]]
 
 
+def _until(answer: BaseStateAnswer) -> float:
+    return answer.run.t_stop
+
+
 class BaseStateExplorer(Explorer):
     """Move the base state a: the growth curve crosses zero, and a fine grid blows up where a coarse one looks fine."""
 
@@ -58,7 +62,7 @@ class BaseStateExplorer(Explorer):
         Number("n", "grid points N", 100, 16, 256, 2),
     )
     looks = (Number("t", "time t", T_END, 0.0, T_END, 0.5, play=250),)
-    until = staticmethod(lambda answer: answer.run.t_stop)
+    until = staticmethod(_until)
     presets: ClassVar = {
         "well posed": "a=1.5",
         "marginal": "a=1.1",

@@ -30,6 +30,10 @@ class _AlsoOfTheClass:
         return MethodType(self.__wrapped__, owner if explorer is None else explorer)
 
 
+def _until(answer: Any) -> float:
+    return math.inf
+
+
 class Explorer:
     """What all explorers share; a subclass states its scene, its drawing and its controls.
 
@@ -50,7 +54,7 @@ class Explorer:
     controls: ClassVar[tuple]
     looks: ClassVar[tuple] = ()
     presets: ClassVar[dict]
-    until: ClassVar[Callable] = staticmethod(lambda answer: math.inf)
+    until: ClassVar[Callable] = staticmethod(_until)
     _completed: ClassVar[Callable] = staticmethod(lambda values: values)  # what else they move
 
     def __init__(self, **values: Any) -> None:

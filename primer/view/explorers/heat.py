@@ -55,6 +55,10 @@ def _u(run, t):
     return time, run.snapshots[time][0]
 
 
+def _until(answer: HeatAnswer) -> float:
+    return answer.onset.refinement.runs[0].t_stop
+
+
 class HeatExplorer(Explorer):
     """Shrink the seed, the step or the spacing: the grid takes over all the same, and sooner the finer it is."""
 
@@ -67,7 +71,7 @@ class HeatExplorer(Explorer):
         Number("seed", "sawtooth in the data", 1e-12, 1e-16, 1e-2, 0.5, log=True),
     )
     looks = (Number("t", "time t", 0.5, 0.0, T_END, 0.01, play=100),)
-    until = staticmethod(lambda answer: answer.onset.refinement.runs[0].t_stop)
+    until = staticmethod(_until)
     presets: ClassVar = {
         "a sawtooth of 1e-12": "seed=1e-12",
         "the last bit is enough": "seed=0,t=0.7",

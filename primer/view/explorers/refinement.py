@@ -49,6 +49,10 @@ def _u(run, t):
     return run.snapshots[times[np.argmin(np.abs(times - t))]][0]
 
 
+def _until(answer: RefinementAnswer) -> float:
+    return max(run.t_stop for run in answer.runs)
+
+
 class RefinementExplorer(Explorer):
     """Refine the grid: where the equations are well posed it helps, where they are not finer is sooner."""
 
@@ -61,7 +65,7 @@ class RefinementExplorer(Explorer):
         Number("dt", "time step dt", 1e-3, 1e-4, 3e-2, 0.05, log=True),
     )
     looks = (Number("t", "time t", T_END, 0.0, T_END, 0.5, play=250),)
-    until = staticmethod(lambda answer: max(run.t_stop for run in answer.runs))
+    until = staticmethod(_until)
     presets: ClassVar = {
         "well posed": "a=1.5",
         "marginal": "a=1.05,n=64",
