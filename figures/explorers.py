@@ -44,9 +44,9 @@ def draw(result):
     parts = figure.subfigures(len(result), 1, height_ratios=[explorer.layout["height"] for explorer in result])
     for part, (explorer, (answer, looks)) in zip(parts, result.items(), strict=True):
         layout = explorer.layout
-        places = [list(range(layout["columns"]))]
+        places = np.arange(layout.get("rows", 1) * layout["columns"]).reshape(-1, layout["columns"])
         options = {key: layout[key] for key in ("width_ratios", "per_subplot_kw") if key in layout}
-        axes = part.subplot_mosaic(places, **options)
+        axes = part.subplot_mosaic(places.tolist(), **options)
         part.suptitle(explorer.__name__, x=0.01, ha="left", fontsize=11, fontweight="bold")
-        explorer.draw(np.array([axes[k] for k in places[0]]), answer, **looks)
+        explorer.draw(np.array([axes[k] for k in places.flat]), answer, **looks)
     return figure
