@@ -290,11 +290,10 @@ def _rough(D, x):
         return -math.inf
 
 
-def _floats(D, memory={}):  # noqa: B006
-    if id(D) not in memory:
-        memory.clear()
-        memory[id(D)] = {p: complex(float(c.re), float(c.im)) for p, c in D.items()}
-    return memory[id(D)]
+def _floats(D, memory=[None, {}]):  # noqa: B006
+    if memory[0] is not D:  # which is kept, so that no other can come to stand in its place
+        memory[:] = D, {p: complex(float(c.re), float(c.im)) for p, c in D.items()}
+    return memory[1]
 
 
 def loss(equations):

@@ -191,8 +191,11 @@ TEXT_ONLY = " go with equations as text only"
         ("u_t = u_xx", {"direction": 0}, ValueError, "direction must be 1 number(s), not all zero, got 0"),
         ("u_t = u_xx", {"direction": (1, 2)}, ValueError, "direction must be 1 number(s), not all zero, got (1, 2)"),
         ("u_t = u_yy", {"direction": 1}, ValueError, "direction must be 2 number(s), not all zero, got 1"),
-        (3, {}, TypeError, "equations must be given as text, or as a Pencil, got int"),
-        (WAVES, {"at": {}}, TypeError, "base-state values, order and parameters" + TEXT_ONLY),
+        (
+            3, {}, TypeError,
+            "the equations must be a string such as 'u_t = u_xx', a list of them or of sympy's Eq, got int",
+        ),
+        (WAVES, {"at": {"u": 1}}, TypeError, "base-state values, order and parameters" + TEXT_ONLY),
         (WAVES, {"order": "maximal"}, TypeError, "base-state values, order and parameters" + TEXT_ONLY),
         (WAVES, {"a": 1}, TypeError, "base-state values, order and parameters" + TEXT_ONLY),
         (SINE, {}, ValueError, "the entries of the pencil are not polynomials in xi of degree 8 or less"),

@@ -83,8 +83,8 @@ def _problem(text, at, initial, period):
     return PDE(text, data, period=length(period), **{name: values[name] for name in values if name in needed})
 
 
-def until(found: AtWork) -> float:
+def until(answer: AtWork) -> float:
     """The share of the time at which playing may end: when the last grid was lost."""
-    if found.marched is None or np.isinf(found.marched.lost).any():
+    if answer.marched is None or np.isinf(answer.marched.lost).any():
         return 1.0
-    return float(found.marched.lost.max() / found.marched.t[-1])
+    return float(answer.marched.lost.max() / answer.marched.t[-1])

@@ -16,8 +16,7 @@ from primer.view.explorers.state import defaults, read_state, write_state
 from primer.view.picture import Picture
 from primer.view.still import picture_html, render
 
-# A notebook may call back from a thread of its own while a cell still draws, and matplotlib draws one thing at a time.
-_DRAWING = RLock()
+_DRAWING = RLock()  # a notebook may call back from a thread of its own, and matplotlib draws one thing at a time
 
 
 class _AlsoOfTheClass:
@@ -28,10 +27,6 @@ class _AlsoOfTheClass:
 
     def __get__(self, explorer, owner):
         return MethodType(self.__wrapped__, owner if explorer is None else explorer)
-
-
-def _until(answer: Any) -> float:
-    return math.inf
 
 
 class Explorer:
@@ -45,7 +40,7 @@ class Explorer:
     controls    tuple of ``Number``, ``Choice`` and ``Line``: what the answer depends on
     looks       tuple of the same: how the answer is looked at, such as the time; they cost no new answer
     presets     name -> state: settings worth seeing
-    until       ``until(answer)`` is the time at which playing may end, infinite if at the end of the slider
+    until       ``until(answer)`` is when playing may end, infinite if at the end of the slider
     """
 
     answer: ClassVar[Callable]
@@ -54,8 +49,11 @@ class Explorer:
     controls: ClassVar[tuple]
     looks: ClassVar[tuple] = ()
     presets: ClassVar[dict]
-    until: ClassVar[Callable] = staticmethod(_until)
     _completed: ClassVar[Callable] = staticmethod(lambda values: values)  # what else they move
+
+    @staticmethod
+    def until(answer: Any) -> float:
+        return math.inf
 
     def __init__(self, **values: Any) -> None:
         self.verdict = ""
