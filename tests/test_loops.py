@@ -250,3 +250,19 @@ def test_processes_started_at_once_need_nothing_of_each_other(tmp_path):
     started = [subprocess.Popen([sys.executable, "-c", code], **options) for _ in range(3)]
     assert len({process.communicate()[0] for process in started}) == 1
     assert list(tmp_path.iterdir()) == []
+
+
+def test_how_numpy_multiplies_complex_arrays_is_found_out(monkeypatch):
+    """True or False wherever it is one of the two known ways; else NumPy marches complex fields."""
+    from primer.schemes import block, whole_rows
+
+    assert whole_rows.fused() in (True, False)
+    random = np.random.default_rng(3)
+    a, b = (random.normal(size=(2, 50)).view(complex).ravel() for _ in range(2))
+    assert whole_rows._is_product(a, b, a * b, whole_rows.fused())
+    assert not whole_rows._is_product(a, b, a * b * (1 + 1e-15), whole_rows.fused())
+    assert whole_rows._is_quotient(a, b, a / b)
+    assert not whole_rows._is_quotient(a, b, a / b * (1 + 1e-15))
+    monkeypatch.setattr(block, "fused", lambda: None)
+    assert not compilable(PDE("u_t = i*u_xx", {"u": "cos(x)"}), 16)
+    assert compilable(PDE("u_t = u_xx", {"u": "cos(x)"}), 16)

@@ -147,7 +147,7 @@ def test_readme_examples_run(example, tmp_path, monkeypatch, capsys):
     exec(compile(example, "README.md", "exec"), names)
     out = capsys.readouterr().out
     said = "blew_up" in out and "reached_end" in out, "0.005 |xi|^2" in out, "64" in out and "hidden" in out
-    said += ("scheme 0.0003" in out,)
+    said += "scheme 0.0003" in out, "well-posed" in out and "order 2.0" in out
     assert any(said) or list(tmp_path.iterdir())
 
 

@@ -7,7 +7,6 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 import numpy as np
-from scipy.special import beta
 
 from primer.arithmetic import constant, points, sin
 from primer.checks import affordable, broadcast, function, integer, real, real_array, shown
@@ -74,7 +73,8 @@ class BackwardHeat:
         (u_t,) = tendencies(self.evolution, {}, state, derivative, _NOTHING)
         return (u_t,)
 
-    def _known(self, _):
+    def known(self, x: ArrayLike) -> Known:
+        """What a time loop computes once: nothing."""
         return _NOTHING
 
     @property
@@ -143,6 +143,8 @@ def abs_sin_coefficients(p: float, m_max: int) -> np.ndarray:
     -------
     array of shape (m_max + 1,)
     """
+    from scipy.special import beta  # which takes longer to load than a run to t = 100
+
     p, m_max = real("p", p, least=0), integer("m_max", m_max, least=0)
     affordable("m_max + 1 coefficients", 64 * m_max, f"m_max = {shown(m_max)}")
     m = np.arange(m_max)

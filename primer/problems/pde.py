@@ -155,6 +155,10 @@ class PDE:
 
     def forcing(self, x: ArrayLike) -> Known:
         """What the right-hand side needs of the parameters and of x alone, so that a time loop computes it once."""
+        return self.known(x)
+
+    def known(self, x: ArrayLike) -> Known:
+        """The same, under the name that all problems made from texts have for it."""
         return known(self.evolution, points(x), self.parameters)
 
     def rhs(

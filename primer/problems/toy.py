@@ -117,6 +117,10 @@ class Toy:
         """The parameters that occur in the equations."""
         return {"eps": self.eps}
 
+    def known(self, x: ArrayLike) -> Known:
+        """What a time loop computes once: eps, in the numbers of x, and sin x."""
+        return self._known(self.forcing(x))
+
     def _known(self, sin_x):
         scalars = Scalars.of(sin_x)
         return Known(scalars, (scalars.number(self.eps),), (sin_x,))

@@ -38,9 +38,14 @@ def of_text(problem):
     return getattr(type(problem), "rhs", None) in (Toy.rhs, BackwardHeat.rhs, PDE.rhs)
 
 
+def has_numpy_s_bits(problem):
+    """Whether machine code would do what NumPy does: always with real numbers, with complex ones as far as is known."""
+    return of_text(problem) and not (getattr(problem, "is_complex", False) and fused() is None)
+
+
 def compilable(problem, n):
     """Whether a problem on n points can be marched by machine code: its right-hand side is that of its text."""
-    if not of_text(problem):
+    if not has_numpy_s_bits(problem):
         return False
     stencils = {m: CENTRAL[m] for m in problem.evolution.orders if m in CENTRAL}
     return len(stencils) == len(problem.evolution.orders) and reach(stencils) <= n
@@ -58,7 +63,7 @@ def fits_a_block(problem, asked):
 @lru_cache(maxsize=256)
 def _step(evolution, kind, lanes, members, form):
     """The code of the paper's step for an evolution."""
-    return machine_code(kernel(evolution, CENTRAL, kind, lanes, members, form, fused()))
+    return machine_code(kernel(evolution, CENTRAL, kind, lanes, members, form, form.fields and fused()))
 
 
 @lru_cache

@@ -6,7 +6,7 @@ from functools import lru_cache
 import numpy as np
 
 from primer.compiled import machine_code
-from primer.schemes.block import address, back, of_text, rows
+from primer.schemes.block import address, back, has_numpy_s_bits, rows
 from primer.schemes.fourier import MATRIX_UP_TO
 from primer.schemes.grid import Stencil
 from primer.schemes.lines_kernel import BOOK, lines_kernel
@@ -18,7 +18,7 @@ from primer.schemes.whole_rows import Numbers, fused
 
 def compilable(problem, n, space):
     """Whether the march can be made by machine code, and NumPy would not be quicker."""
-    if not of_text(problem):
+    if not has_numpy_s_bits(problem):
         return False
     orders = problem.evolution.orders
     kinds = {type(space.get(m)) for m in orders}
@@ -29,7 +29,9 @@ def compilable(problem, n, space):
 
 @lru_cache(maxsize=256)
 def _code(evolution, stencils, lanes, form):
-    return machine_code(lines_kernel(evolution, dict(stencils) if stencils else None, lanes, form, fused()))
+    return machine_code(
+        lines_kernel(evolution, dict(stencils) if stencils else None, lanes, form, form.fields and fused())
+    )
 
 
 @lru_cache(maxsize=64)

@@ -1,11 +1,12 @@
 """What NumPy computes for a compiled loop: numbers and functions of x once, and functions of fields row by row."""
 
 import ctypes
+from fractions import Fraction
 from functools import cache
 
 import numpy as np
 
-from primer.equations.evaluate import Known, operate, value
+from primer.equations.evaluate import operate, value
 from primer.schemes.passes import Form, passes
 
 _CALL = ctypes.CFUNCTYPE(None, ctypes.c_int64, ctypes.c_double)
@@ -17,8 +18,7 @@ class Numbers:
     def __init__(self, problem, x, real):
         self.problem, self.x, self.real = problem, x, real
         with np.errstate(all="ignore"):  # a parameter beyond the largest number is infinite: a blow-up
-            given = problem.forcing(x)
-            self.known = given if isinstance(given, Known) else problem._known(given)
+            self.known = problem.known(x)
         self.raised, self.stop = None, lambda: None
         self.callback = _CALL(self._guarded)
         self.address = ctypes.cast(self.callback, ctypes.c_void_p).value
@@ -92,6 +92,33 @@ def _parts(values):
 
 @cache
 def fused():
-    """Whether NumPy's product of complex arrays rounds once where it adds two products, as its fastest loop does."""
-    a = np.full(8, (1 + 2.0**-30) * (1 + 1j))
-    return bool((a * a).real[0] != 0)  # x x - x x, and what x x loses when it is rounded
+    """How NumPy multiplies complex arrays here: True if it rounds once where it adds two products, as its fastest loop
+    does, False if it rounds each, None if it is neither, or if its quotient is not Smith's: then NumPy marches.
+    """
+    x = 1 + 2.0**-30  # x x - x x is 0, or what x x loses when it is rounded
+    once = bool((np.full(8, x + x * 1j) * np.full(8, x + x * 1j)).real[0] != 0)
+    random = np.random.default_rng(1)
+    a, b = (random.normal(size=(2, 32)).view(complex).ravel() for _ in range(2))
+    return once if _is_product(a, b, a * b, once) and _is_quotient(a, b, a / b) else None
+
+
+def _is_product(a, b, ab, once):
+    exact = np.vectorize(Fraction, otypes=[object])
+
+    def of(p, q, r, s):
+        """p q + r s, rounded after r s, and after p q if not once."""
+        second = r * s
+        return (exact(p) * exact(q) + exact(second)).astype(float) if once else p * q + second
+
+    real, imag = of(a.real, b.real, -a.imag, b.imag), of(a.real, b.imag, a.imag, b.real)
+    return np.array_equal(ab.real, real) and np.array_equal(ab.imag, imag)
+
+
+def _is_quotient(a, b, found):
+    wide = np.abs(b.real) >= np.abs(b.imag)
+    x, y = np.where(wide, b.real, b.imag), np.where(wide, b.imag, b.real)
+    ratio = y / x
+    scale = 1 / (x + y * ratio)
+    real = np.where(wide, a.real + a.imag * ratio, a.real * ratio + a.imag) * scale
+    imag = np.where(wide, a.imag - a.real * ratio, a.imag * ratio - a.real) * scale
+    return np.array_equal(found.real, real) and np.array_equal(found.imag, imag)

@@ -51,7 +51,7 @@ LOOP(kuramoto_sivashinsky, double unused,
     for (long j = 0; j < n; j++) {
         double u_x = (u[j + 1] - u[j - 1]) * r[0];
         double u_xx = (u[j + 1] - 2 * u[j] + u[j - 1]) * r[1];
-        double u_xxxx = (u[j + 2] - 4 * u[j + 1] + 6 * u[j] - 4 * u[j - 1] + u[j - 2]) * r[2];
+        double u_xxxx = (6 * u[j] - 4 * u[j + 1] - 4 * u[j - 1] + u[j + 2] + u[j - 2]) * r[2];
         un[j] = u[j] + dt * (-u_xxxx - u_xx - u[j] * u_x);
     })
 

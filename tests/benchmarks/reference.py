@@ -13,8 +13,6 @@ import numpy as np
 from kernel import seconds
 
 from primer import Toy, ftcs, reference
-from primer.compiled import compiled
-from primer.schemes.block import KERNEL
 from primer.study.contestants import solve_ivp
 
 TOY, T_END, TOL = Toy(1.5, 0.01), 5.0, 1e-10
@@ -46,7 +44,6 @@ def quickest_solve_ivp(truth):
 
 
 def main():
-    compiled(KERNEL)
     truth = reference(TOY, T_END, tol=3.5e-13)
     answer = reference(TOY, T_END, TOL)
     own = partial(reference, TOY, T_END, TOL)
