@@ -1,7 +1,7 @@
 """Round-off as the seed: digits, last bits and the order of a sum decide when the toy system blows up.
 
 (a) The same run in more and more digits, a = -1.5, eps = 0.02, N = 36: digits buy time, until the solution that exact
-arithmetic would give blows up by itself; 30 and 60 digits agree on when. Bars: what diagnose foresees. (b) Stated seeds
+arithmetic would give blows up by itself; 30 and 60 digits agree on when. Bars: what is foretold. (b) Stated seeds
 at a = 0.5, N = 80: T = c + ln(1/delta)/growth. (c) a = 0.5, N = 100: one initial value moved by its last bit, and an
 order of operations that is mirror-symmetric, so that the fastest mode, of the opposite symmetry, never gets its seed.
 """
@@ -9,7 +9,7 @@ order of operations that is mirror-symmetric, so that the fastest mode, of the o
 import numpy as np
 from sidecar import close, within
 
-from primer import Toy, diagnose, ftcs
+from primer import Toy, ftcs
 from primer.study.round_off import (
     PRECISIONS,
     blow_up_time,
@@ -18,6 +18,7 @@ from primer.study.round_off import (
     precision_ladder,
     seed_ladder,
 )
+from primer.study.toy_diagnosis import foretold
 from primer.view.grid_dependence import draw_ladder, draw_last_bit, draw_seeds
 from primer.view.style import new_figure
 
@@ -28,7 +29,7 @@ PAPER = Toy(0.5)
 def compute():
     return {
         "ladder": {name: blow_up_time(run) for name, run in precision_ladder(**LADDER).items()},
-        "foreseen": {name: diagnose(**LADDER, **how) for name, how in PRECISIONS.items()},
+        "foreseen": {name: foretold(**LADDER, **how) for name, how in PRECISIONS.items()},
         "seeds": seed_ladder(PAPER, 80, 1e-3, 200.0, 10.0 ** -np.arange(4, 15)),
         "plain": blow_up_time(ftcs(PAPER)),
         "ulps": one_ulp(PAPER, 100, 1e-3, 40.0, [10, 30, 50, 70, 90]),

@@ -175,7 +175,8 @@ def _with_a_small_step(toy, n, dt, t_end, seed, epsilon, digits=None):
 
 def _reason(kind, toy, n, dt, t_end, found, gentle, t_dip, rate, small=None):
     source = "the seed" if found.seeded else "the smooth solution itself" if found.smooth else "round-off"
-    when = f"what grows from {source} is as large as u near t = {found.t_blow_up:.3g}"
+    digits = 3 if small is None else 2  # of a run: the last bit decides the third
+    when = f"what grows from {source} is as large as u near t = {found.t_blow_up:.{digits}g}"
     if kind is Kind.SCHEME:
         lives = "a smaller one lives to the end" if small is None else f"dt = {small:.2g} lives twice as long or longer"
         if gentle.t_blow_up <= t_end:

@@ -16,6 +16,7 @@ _PUT_OFF = 1.5  # a blow-up that a smaller step puts off by this factor is the s
 _SOONER = 0.9  # and one that comes this much sooner on a finer grid is of the equations
 _DENSE = 300  # unknowns up to which eigenvalues are looked at for each of a few states
 _FINER, _FLAT, _FINEST = 1.25, 0.02, 10**5  # grids on which a bound of growth is looked for
+_APART = 50.0  # growth of a perturbation over the run that is more than a front's becoming steeper
 _RISES = 0.2  # the power of n from which on growth is not bounded
 
 
@@ -172,13 +173,13 @@ def _of_a_life(problem, main, places, rises, growths, about, seed, dtype, time):
         return Kind.UNSTABLE, f"{_looks_ill_posed(problem, main, about)}; this run reaches its end."
     separates = _separation(problem, main, about["t_end"], seed, dtype, time)
     limit, bad = about["limit"], about["bad"]
-    if separates > 1e3 and bad > 2 * max(growths[-1], 0.0):
+    if separates > _APART and bad > 2 * max(growths[-1], 0.0):
         cure = f"dt <= {limit:.3g} would do" if 0 < limit < about["dt"] else "another scheme would do"
         return Kind.SCHEME, (
             f"The step dt = {about['dt']:g} is too large for n = {about['n']}: what does not grow of itself is "
             f"amplified like e^({bad:.3g} t), {separates:.2g} times by the end, though nothing is lost by then; {cure}."
         )
-    if separates > 1e3:
+    if separates > _APART:
         return Kind.UNSTABLE, (
             f"Nothing is ill posed and growth is bounded, {about['size']}, but perturbations have grown "
             f"{separates:.2g} times by t = {about['t_end']:g}: the model's own."
