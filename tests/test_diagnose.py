@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import primer.study.toy_diagnosis as diagnosis
-from primer import Seed, Stop, Toy, diagnose, ftcs
+from primer import Seed, Stop, Toy, diagnose, exact_march, ftcs
 from primer.schemes.discrete import discrete_steady
 from primer.schemes.grid import Grid
 from primer.schemes.record import plan
@@ -350,3 +350,29 @@ def test_the_fastest_mode_need_not_be_the_one_that_the_seed_holds():
     assert earliest < ftcs(*case[:-1], seed=case[-1]).t_stop < latest
     assert fastest(Toy(0.5), 72, 4.5e-3).lam.imag > 1
     assert any(mode.lam.imag < 1 for mode in growing(Toy(0.5), 72, 4.5e-3))
+
+
+def test_a_step_far_too_large_is_to_blame_in_single_precision_too():
+    """With a fiftieth of the step the run lives twenty times as long: the scheme's fault, though u < 0 as well."""
+    toy, scene = Toy(0.486, 1.6887), {"n": 197, "dtype": np.float32}
+    found, run = diagnose(toy, dt=0.005755, t_end=50, **scene), ftcs(toy, dt=0.005755, t_end=50, **scene)
+    assert found.kind is Kind.SCHEME
+    assert found.blow_up[0] <= run.t_stop <= found.blow_up[1] < 0.1
+    assert ftcs(toy, dt=2e-5, t_end=50, **scene).t_stop > 10 * run.t_stop
+
+
+@pytest.mark.parametrize(
+    ("toy", "n", "digits", "t_end"),
+    [
+        (Toy(-0.5, 0.05), 40, 80, 20.0),
+        pytest.param(Toy(0.5), 200, 150, 100.0, marks=pytest.mark.slow),
+        pytest.param(Toy(0.5), 100, 126, 100.0, marks=pytest.mark.slow),
+    ],
+)
+def test_with_digits_enough_the_smooth_solution_itself_is_lost_and_that_is_foreseen(toy, n, digits, t_end):
+    """The table of tests/test_exact.py: 13.0 on 200 points, 92.4 on 100; and a quicker scene."""
+    found = diagnose(toy, n, 1e-3, t_end, digits=digits)
+    true = {200: 12.985, 100: 92.388}.get(n) or exact_march(toy, n, 1e-3, t_end, digits).t_stop
+    assert found.kind is Kind.ILL_POSED
+    assert found.blow_up[0] <= true <= found.blow_up[1]
+    assert "the smooth solution itself" in found.reason

@@ -92,7 +92,8 @@ def check_03_3(answer: float, seed: int = 0) -> Feedback:
     return check(
         answer,
         given["digits"] * math.log(10) / rate,
-        "digits buy time in proportion, while the growth rises with the square of N: refining always wins.",
+        "digits buy time in proportion, while the growth rises with the square of N: twice the digits do not make up "
+        "for half the spacing.",
         {
             "growth is exp(rate t), not 10^(rate t).": given["digits"] / rate,
             "that is for one digit.": math.log(10) / rate,

@@ -207,8 +207,8 @@ def _judged(kind, found, limit, D):
     if kind is Kind.UNSTABLE:
         short = "short waves decay" if limit < 0 else f"the shortest grow at {limit:.3g} ‖D‖"
         return (
-            f"Well posed but unstable: waves grow, yet none faster than {found.bound / D:.3g} ‖D‖, however short "
-            f"({short}). This is an instability that finer grids agree upon."
+            f"Well posed, with growth: frozen at this state waves grow, yet none faster than {found.bound / D:.3g} "
+            f"‖D‖, however short ({short}). Finer grids agree upon that."
         )
     tends = f"at {-limit:.3g} ‖D‖" if np.isfinite(limit) else f"like {-found.coefficient / D:.3g} ‖D‖ {power}"
     return f"Well posed: no wave grows, and short waves decay {tends} or faster."
