@@ -19,7 +19,7 @@ from primer.view.picture import Picture
 from primer.view.site.words import equations, mathml, numbered, prose
 from primer.view.style import styled
 
-ROOT = Path(primer.__file__).parents[1]
+ROOT = Path(__file__).parents[1]
 AXE = os.environ.get("PRIMER_AXE")  # axe.min.js of axe-core, which is not part of the package
 READY = os.environ.get("PRIMER_EXPLORERS")  # a folder of an earlier site, to save some minutes
 
