@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 from jupyter import ARTEFACTS, CHROMIUM, chromium
 
-import primer
 from primer.__main__ import main
 from primer.scenes.pde import pde as answer
 from primer.view.page.closed import closed_form
