@@ -59,6 +59,10 @@ def _as_text(found):
     if found.blow_up:
         rows.append(("blow-up", "t = {:.4g} to {:.4g}".format(*found.blow_up)))
     rows.append(("growth", f"{found.growth:.6g} per unit time"))
+    if math.isfinite(found.wavelength):
+        rows.append(("fastest", f"waves of length {found.wavelength:.4g}"))
+    if found.amplification:
+        rows.append(("a step", f"multiplies no wave by more than {max(found.amplification):.6g}"))
     if math.isfinite(found.stable_dt):
         rows.append(("cure", f"dt <= {found.stable_dt:.4g}" if found.stable_dt else "no dt, another scheme"))
     return "\n".join(f"{name + ':':9s} {value}" for name, value in [*rows, ("reason", found.reason)])

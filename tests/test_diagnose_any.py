@@ -154,6 +154,42 @@ def test_a_uniform_state_is_lost_when_the_linear_equations_say():
     assert found.seeded
 
 
+def test_the_amplification_of_each_wave_of_a_uniform_state():
+    n, dt = 40, 1.4e-2
+    k, h = np.arange(n // 2 + 1), 2 * np.pi / n
+    found = diagnose(PDE("u_t = u_xx + u_x", {"u": 1.0}), n, dt, 50.0)
+    lam = -((2 * np.sin(k * h / 2) / h) ** 2) + 1j * np.sin(k * h) / h
+    np.testing.assert_allclose(found.amplification, np.abs(1 + dt * lam), rtol=1e-12)
+    assert found.wavelength == pytest.approx(2 * np.pi / np.argmax(found.amplification))
+    runge_kutta = diagnose(PDE("u_t = -u_xxx", {"u": 1.0}), n, dt, 50.0, time=RK4)
+    z = dt * 1j * np.sin(k * h) / h * (2 * np.sin(k * h / 2) / h) ** 2
+    np.testing.assert_allclose(runge_kutta.amplification, np.abs(1 + z + z**2 / 2 + z**3 / 6 + z**4 / 24), rtol=1e-9)
+    one_sided = diagnose(PDE("w_t = -i*w_x", {"w": "0"}), n, dt, 5.0)  # of w, k grows and -k decays
+    np.testing.assert_allclose(one_sided.amplification, 1 + dt * np.sin(k * h) / h, atol=1e-12)
+
+
+@pytest.mark.parametrize("nu", [0.1, -0.1])
+def test_the_amplification_and_the_fastest_wave_of_a_state_that_varies(nu):
+    """Frozen at each x by hand; the strongest wave of the Jacobian's fastest mode, the mean apart, by complex steps."""
+    n, dt = 48, 1e-3
+    found = diagnose(burgers(nu), n, dt, 2 * dt)
+    x, h = 2 * np.pi * np.arange(n) / n - np.pi, 2 * np.pi / n
+    k, u = np.arange(n // 2 + 1)[:, None], np.sin(x)
+    u_x = np.cos(x) * np.sin(h) / h
+    lam = -nu * (2 * np.sin(k * h / 2) / h) ** 2 - u * 1j * np.sin(k * h) / h - u_x
+    np.testing.assert_allclose(found.amplification, np.abs(1 + dt * lam).max(axis=1), atol=1e-4)
+
+    def slope(u):
+        plus, minus = np.roll(u, -1), np.roll(u, 1)
+        return nu * (plus - 2 * u + minus) / h**2 - (plus**2 - minus**2) / (4 * h)
+
+    J = np.array([slope(u + 1e-30j * e).imag / 1e-30 for e in np.eye(n)]).T
+    factors, vectors = np.linalg.eig(np.eye(n) + dt * J)
+    strongest = 1 + np.argmax(np.abs(np.fft.fft(vectors[:, np.argmax(np.abs(factors))]))[1 : n // 2 + 1])
+    assert found.wavelength == pytest.approx(2 * np.pi / strongest)
+    assert strongest == (1 if nu > 0 else n // 2)
+
+
 def test_backward_heat_and_problems_of_ones_own():
     found = diagnose(BackwardHeat(), 32, 1e-4, 5.0)
     assert found.kind == "ill-posed"

@@ -41,19 +41,60 @@ def rates(problem: Any, n: int, state: Any = None, t: float = 0.0, space: Any = 
 
     if not hasattr(problem, "evolution"):
         return np.linalg.eigvals(_quotients(problem, x, state, derivative, t))
-    given = known(problem.evolution, x, problem.parameters)
-    with np.errstate(all="ignore"):
-        about = linearised(problem.evolution, problem.parameters, state, derivative, given, t)
-    slopes = [np.ravel(c) for stage in about.slopes for found in stage for c in found.values()]
-    if not all(np.isfinite(c).all() for c in slopes):
-        raise ValueError(f"u must be a state about which the equations can be linearised, got {shown(state)}")
-    if all((c == c[0]).all() for c in slopes):
+    about = _about(problem, x, state, derivative, t)
+    if _is_uniform(about):
         return np.linalg.eigvals(_uniform(about).symbol(_waves(n, derivative, np.arange(n)))).ravel()
     if len(state) * n <= DENSE:
         return np.linalg.eigvals(about.matrix(n, derivative))
     chosen = np.unique(np.linspace(0, n // 2, _WAVES).astype(int))
     waves = _waves(n, derivative, chosen)
     return np.linalg.eigvals(about.symbol(lambda m: waves(m)[:, None], derivative)).ravel()
+
+
+def frozen_rates(problem: Any, n: int, state: Any, places: np.ndarray, t: float = 0.0) -> np.ndarray:
+    """(waves, places, fields): the rates of waves k = 0, 1, ... n - 1 of the period, the equations frozen at points.
+
+    ``places`` are indices of points of the grid, on which derivatives are central differences.
+    """
+    grid = grid_of(problem, n)
+
+    def derivative(f, m):
+        return CENTRAL[m](f, grid.h)
+
+    about = _about(problem, grid.x, _state(problem, grid.x, state), derivative, t)
+    waves = _waves(n, derivative, np.arange(n))
+    symbol = about.symbol(lambda m: waves(m)[:, None], derivative)
+    symbol = np.broadcast_to(symbol, (n, grid.x.size, *symbol.shape[2:]))[:, places]
+    return np.linalg.eigvals(symbol)
+
+
+def modes(problem: Any, n: int, state: Any, t: float = 0.0) -> tuple[np.ndarray, np.ndarray]:
+    """(rates, (fields, n, modes) vectors) of the Jacobian of a problem that is a text, on up to 800 unknowns."""
+    grid = grid_of(problem, n)
+
+    def derivative(f, m):
+        return CENTRAL[m](f, grid.h)
+
+    state = _state(problem, grid.x, state)
+    lam, vectors = np.linalg.eig(_about(problem, grid.x, state, derivative, t).matrix(n, derivative))
+    return lam, vectors.reshape(len(state), n, lam.size)
+
+
+def _about(problem, x, state, derivative, t):
+    given = known(problem.evolution, x, problem.parameters)
+    with np.errstate(all="ignore"):
+        about = linearised(problem.evolution, problem.parameters, state, derivative, given, t)
+    if not all(np.isfinite(c).all() for c in _slopes(about)):
+        raise ValueError(f"u must be a state about which the equations can be linearised, got {shown(state)}")
+    return about
+
+
+def _slopes(about):
+    return [np.ravel(c) for stage in about.slopes for found in stage for c in found.values()]
+
+
+def _is_uniform(about):
+    return all((c == c[0]).all() for c in _slopes(about))
 
 
 def _state(problem, x, state):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import StrEnum
 
 from primer.schemes.run import Seed
@@ -36,10 +36,12 @@ class Diagnosis:
     seeded      whether the blow-up grows from it rather than from round-off
     t_blow_up   the single best guess, also where it lies after t_end; infinite if never
     growths     fastest growth as dt -> 0 on n, 2 n and 4 n points, where it was computed
-    wavelength  of the fastest mode; nan where it was not looked for
+    wavelength  of the fastest mode with this step: of the strongest wave in it; nan where it was not looked for
     stable_dt   the step that would cure a blow-up of the scheme, else nan
     where       where the equations are ill posed, frozen: "for |x| < 1.05"; empty if nowhere, or not looked for
     ran         whether the run itself was made, as it is where that is cheaper than to foretell it
+    amplification    by what one step multiplies waves of k = 0, 1, ... n/2 in the period, (n//2 + 1,) numbers: the
+                largest factor, of a uniform state; frozen at each x, the largest of all there
 
     Figures 4 to 6 of the paper are of the kinds converges, ill-posed and hidden.
 
@@ -62,3 +64,4 @@ class Diagnosis:
     stable_dt: float = math.nan
     where: str = ""
     ran: bool = False
+    amplification: tuple[float, ...] = field(default=(), repr=False)

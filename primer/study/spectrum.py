@@ -19,7 +19,6 @@ blind.
 
 import math
 from dataclasses import dataclass, field
-from enum import StrEnum
 
 import numpy as np
 
@@ -27,17 +26,11 @@ from primer.checks import affordable, instance, real
 from primer.problems.toy import Toy
 from primer.schemes.discrete import discrete_steady
 from primer.schemes.grid import Grid
+from primer.study.real_mode import Parity, form, surely_fastest
 
 _BYTES = 600  # for each point, of the 31 complex vectors of a search
 _SLOW = 1e-3  # no eigenvalue where all decay, and nearer to those of slow decay than to others
 _DENSE = 100  # points up to which all eigenvalues cost less than a few of them
-
-
-class Parity(StrEnum):
-    """Symmetry of a perturbation about x = 0. The data and the steady state have that of ``DATA``."""
-
-    DATA = "u even, v odd"
-    OPPOSITE = "u odd, v even"
 
 
 @dataclass(frozen=True, eq=False)
@@ -113,28 +106,21 @@ def growing(toy, n, dt=0.0):
 
 def growth(toy, n, dt=0.0):
     """The :func:`rate` of the :func:`fastest` mode. Dimensionless."""
-    return float(rate(_spectrum(toy, n, dt)[0][0], dt))
+    return float(rate(leader(toy, n, dt)[0], dt))
+
+
+def leader(toy, n, dt=0.0):
+    """(lam, k) of the :func:`fastest` mode: k is the number of its strongest wave in v. Often quicker."""
+    instance("toy", toy, Toy)
+    n, dt = Grid(n).n, real("dt", dt, least=0)
+    lam, parity, y = surely_fastest(toy, n, dt) or _spectrum(toy, n, dt)[0]
+    k = form(toy, n, parity)[0]
+    return complex(lam), int(k[np.argmax(np.abs(y) / np.sin(k * np.pi / n))])
 
 
 def rate(lam, dt=0.0):
     """ln|1 + dt lam|/dt, the growth per unit time that steps of dt make of a growth rate lam; Re lam for dt = 0."""
     return np.log(np.abs(1 + dt * lam)) / dt if dt else np.real(lam)
-
-
-def _form(toy, n, parity):
-    """(k, s, diagonal, off-diagonal) of s and 1 + eps A over the wavenumbers k = 1 ... of one parity."""
-    h = 2 * math.pi / n
-    even_v = parity is Parity.OPPOSITE
-    k = np.arange(1, n // 2 + 1 if even_v or n % 2 else n // 2)
-    s, half = np.sin(k * h) / h, 2 * np.sin(k * h / 2) / h  # half = sqrt(k2)
-    diagonal = toy.a * half**2
-    off = -h / math.sin(h) / 2 * half[1:] * half[:-1]
-    if n % 2:  # the neighbour of the last wavenumber is, on the grid, itself: with the sign of the sawtooth's ends
-        diagonal[-1] += (1 if even_v else -1) * h / math.sin(h) / 2 * half[-1] ** 2
-    elif even_v:
-        s[-1] = 0  # sin(pi) in exact arithmetic
-        off[-1:] *= math.sqrt(2)
-    return k, s, 1 + toy.eps * diagonal, toy.eps * off
 
 
 def _spectrum(toy, n, dt):
@@ -151,7 +137,7 @@ def _spectrum(toy, n, dt):
 
 def _of_parity(toy, n, parity, dt):
     """(lam, y): the eigenvalues of one parity, (m,), and their y, (m, number of wavenumbers)."""
-    _, s, diagonal, off = _form(toy, n, parity)
+    _, s, diagonal, off = form(toy, n, parity)
     s = s[s > 0]
     if toy.eps == 0:  # every wavenumber by itself
         lam, vectors = np.sqrt(0.25 - s**2 + 0j) - 0.5, np.eye(s.size + diagonal.size, s.size, k=-s.size)
@@ -173,7 +159,7 @@ def _of_parity(toy, n, parity, dt):
 
 def _mode(toy, n, lam, parity, y):
     """The :class:`Mode` of an eigenvalue."""
-    grid, (k, s, _, _) = Grid(n), _form(toy, n, parity)
+    grid, (k, s, _, _) = Grid(n), form(toy, n, parity)
     half = 2 * np.sin(k * grid.h / 2) / grid.h
     y = y / half
     v = np.zeros(n, dtype=complex)

@@ -13,6 +13,7 @@ import numpy as np
 
 from primer.checks import instance, shown
 from primer.problems.toy import Toy
+from primer.schemes.discrete import discrete_steady
 from primer.schemes.ftcs import ftcs
 from primer.schemes.grid import Grid
 from primer.schemes.record import plan
@@ -20,8 +21,9 @@ from primer.schemes.run import Seed, Stop
 from primer.study.exact import MOST_DIGITS, exact_march
 from primer.study.forecast import Forecast, forecast
 from primer.study.kinds import Diagnosis, Kind
-from primer.study.spectrum import growth
-from primer.study.stability import OVERSHOOT, stable_dt
+from primer.study.real_mode import nothing_grows
+from primer.study.spectrum import leader, rate
+from primer.study.stability import OVERSHOOT, amplification_over_modes, stable_dt
 from primer.types import DTypeLike
 
 # A blow-up measured within [earliest, latest]: the width, a factor 1.45, is twice the spread of measured times over
@@ -36,6 +38,7 @@ _QUICK = 1e9  # points times steps of a run that takes seconds
 _GENTLE = 0.2  # the same for a run of that small step, of which each costs
 _SOONER = 1.1  # by which a seed must be sooner than round-off to be what the run is lost to
 _SAME = 0.03  # times of blow-up in two arithmetics that are no accident
+_RESTS, _AT_REST = 32.0, 1e-6  # time after which the way to the steady state, e^{-t/2}, is no longer than that
 _SMALL = 0.05  # a step so far below the scheme's limit that only the equations are left to blame
 
 
@@ -67,8 +70,9 @@ def foretold(
     epsilon = max(asked.numbers.epsilon, 1e-300)
     many = digits if digits is not None and digits > _DOUBLE else None
     if run and digits is None and asked.numbers.dtype in (np.float32, np.float64) and n * asked.steps <= _QUICK:
-        found, gentle, small = _watched(toy, n, dt, t_end, seed, asked.numbers.dtype)
-        return _said(toy, n, dt, t_end, seed, found, gentle, gentle.t_first_negative, small)
+        lead = leader(toy, n, dt)
+        found, gentle, small, seen = _watched(toy, n, dt, t_end, seed, asked.numbers.dtype, rate(lead[0], dt) <= 0)
+        return _said(toy, n, dt, t_end, seed, found, gentle, gentle.t_first_negative, lead, small, seen)
     found, gentle = _foreseen(toy, n, dt, t_end, seed, epsilon, many), None
     blows_up, t_dip = found.t_blow_up <= t_end, found.t_first_negative
     if blows_up and many and found.smooth and dt <= _accurate(toy, n):
@@ -76,11 +80,14 @@ def foretold(
     elif blows_up:
         gentle = _with_a_small_step(toy, n, dt, max(t_end, 1.5 * found.t_blow_up), seed, epsilon, many) or found
         t_dip = gentle.t_first_negative  # which the scheme may not have let it reach
-    return _said(toy, n, dt, t_end, seed, found, gentle or found, t_dip)
+    return _said(toy, n, dt, t_end, seed, found, gentle or found, t_dip, leader(toy, n, dt))
 
 
-def _said(toy, n, dt, t_end, seed, found, gentle, t_dip, small=None):
-    """The diagnosis from what becomes of the run and of one with a small step; ``small`` is that, if both were run."""
+def _said(toy, n, dt, t_end, seed, found, gentle, t_dip, lead, small=None, seen=math.inf):
+    """The diagnosis from what becomes of the run and of one with a small step; ``small`` is that, if both were run.
+
+    ``lead`` is the fastest mode of the steady state, and ``seen`` the time to which the run was made.
+    """
     blows_up = found.t_blow_up <= t_end
     later = gentle.t_blow_up / max(found.t_blow_up, dt)
     if blows_up and (gentle.t_blow_up > max(t_end, 1.5 * found.t_blow_up) or later > _MUCH_LATER):
@@ -92,15 +99,34 @@ def _said(toy, n, dt, t_end, seed, found, gentle, t_dip, small=None):
     else:
         kind = Kind.ILL_POSED if blows_up else Kind.CONVERGES
     interval = (_EARLIEST * found.t_blow_up, _LATEST * found.t_blow_up) if blows_up else None
-    rate = growth(toy, n, dt)
-    reason = _reason(kind, toy, n, dt, t_end, found, gentle, t_dip, rate, small)
+    growth = float(rate(lead[0], dt))
+    where = _ill_where(toy) if toy.eps > 0 and (toy.a < 1 or t_dip is not None) else ""
+    reason = _reason(kind, toy, n, dt, t_end, found, gentle, t_dip, growth, where or "where u < 0", small)
     if small is not None:
-        reason = f"{reason[:-1]} (as running it shows, which is cheaper than to foretell it)."
+        how = "cheaper than to foretell it" if seen >= t_end else f"to t = {seen:g}: at rest there, and nothing grows"
+        reason = f"{reason[:-1]} (as running it shows, which is {how})."
+        reason = reason.replace("shows, which is to", "shows to")
     return Diagnosis(
-        kind, interval, rate, reason, seed, blows_up and found.seeded, found.t_blow_up,
-        stable_dt=_cure(toy, n) if kind is Kind.SCHEME else math.nan,
-        where=_ill_where(toy) if toy.eps > 0 and (toy.a < 1 or t_dip is not None) else "", ran=small is not None,
+        kind, interval, growth, reason, seed, blows_up and found.seeded, found.t_blow_up, _growths(toy, n),
+        2 * math.pi / lead[1], _cure(toy, n) if kind is Kind.SCHEME else math.nan, where, small is not None,
+        _amplification(toy, n, dt),
     )  # fmt: skip
+
+
+def _growths(toy, n):
+    """The fastest growth on the steady state as dt -> 0 on n, 2 n and 4 n points; 0 where nothing grows."""
+    return tuple(0.0 if nothing_grows(toy, m) else max(leader(toy, m)[0].real, 0.0) for m in (n, 2 * n, 4 * n))
+
+
+def _amplification(toy, n, dt):
+    """Of each wave, frozen at the u of the steady state that is worst for it: the least or the greatest.
+
+    The conditions that both factors of a wave are within a circle are linear in u (Jury), so that those u are an
+    interval: the largest factor is at one of its ends.
+    """
+    deep = Grid(n).h / math.sin(Grid(n).h)
+    factors = [amplification_over_modes(toy, n, dt, u)[1][:, 0] for u in (toy.a - deep, toy.a + deep)]
+    return tuple(np.maximum(*factors).tolist())
 
 
 def _cure(toy, n):
@@ -114,13 +140,20 @@ def _ill_where(toy):
     return "where u < 0, for all x" if toy.a <= -1 else "where u < 0, on the way"
 
 
-def _watched(toy, n, dt, t_end, seed, dtype):
-    """(found, gentle, small): what becomes of the run, and of one with a small step, as forecasts; and that step."""
-    run = ftcs(toy, n, dt, t_end, seed=seed, dtype=dtype, progress=False)
+def _watched(toy, n, dt, t_end, seed, dtype, decays):
+    """(found, gentle, small, seen): what becomes of the run, and of one with a small step, as forecasts; that step.
+
+    ``decays`` says that on the steady state nothing grows: a run that is at rest on it at the time ``seen`` stays.
+    """
+    seen = t_end if t_end <= _RESTS or not decays else _RESTS
+    run = ftcs(toy, n, dt, seen, seed=seed, dtype=dtype, progress=False)
+    rest = discrete_steady(toy, run.x, Grid(n).h)
+    if run.stop is not Stop.BLEW_UP and seen < t_end and np.abs(np.subtract(run.final, rest)).max() > _AT_REST:
+        seen, run = t_end, ftcs(toy, n, dt, t_end, seed=seed, dtype=dtype, progress=False)
     small = min(dt, _GENTLE * min((math.pi / n) ** 2, stable_dt(toy, n, max(toy.a + 1.2, 0.0))))
     if run.stop is not Stop.BLEW_UP:
         found = Forecast(math.inf, False, False, run.t_first_negative)
-        return found, found, small
+        return found, found, small, seen
     t = run.t_stop
     seeded = seed is not None and _lost(toy, n, dt, _SOONER * t, None, dtype) == math.inf
     other = np.float32 if dtype == np.float64 else np.float64
@@ -128,10 +161,10 @@ def _watched(toy, n, dt, t_end, seed, dtype):
     smooth = not seeded and seed is None and abs(_lost(toy, n, dt, 1.1 * t, None, other) / t - 1) < _SAME
     found = Forecast(t, seeded, smooth, run.t_first_negative)
     if dt <= small or dt <= _GENTLE * _cure(toy, n):
-        return found, found, small
+        return found, found, small, t_end
     later = ftcs(toy, n, small, (_MUCH_LATER + 0.1) * t, seed=seed, dtype=dtype, progress=False)
     t_later = later.t_stop if later.stop is Stop.BLEW_UP else math.inf
-    return found, Forecast(t_later, False, False, later.t_first_negative), small
+    return found, Forecast(t_later, False, False, later.t_first_negative), small, t_end
 
 
 def _lost(toy, n, dt, t_end, seed, dtype):
@@ -173,7 +206,7 @@ def _with_a_small_step(toy, n, dt, t_end, seed, epsilon, digits=None):
     return _foreseen(toy, n, small, t_end, seed, epsilon, digits, locks=False)
 
 
-def _reason(kind, toy, n, dt, t_end, found, gentle, t_dip, rate, small=None):
+def _reason(kind, toy, n, dt, t_end, found, gentle, t_dip, growth, where, small=None):
     source = "the seed" if found.seeded else "the smooth solution itself" if found.smooth else "round-off"
     digits = 3 if small is None else 2  # of a run: the last bit decides the third
     when = f"what grows from {source} is as large as u near t = {found.t_blow_up:.{digits}g}"
@@ -186,23 +219,26 @@ def _reason(kind, toy, n, dt, t_end, found, gentle, t_dip, rate, small=None):
             )
         return f"The step dt = {dt:g} is too large for n = {n}, and {when}; {lives}."
     if kind is Kind.ILL_POSED:
-        return f"Where u < 0 the equations are ill posed, n = {n} points see it, and {when}; no smaller dt helps."
+        return (
+            f"{where[0].upper()}{where[1:]}{',' * (',' in where)} the equations are ill posed, n = {n} points see it, "
+            f"and {when}; no smaller dt helps."
+        )
     if kind is Kind.HIDDEN:
-        if rate <= 0:
-            return f"The equations are ill posed where u < 0, but on n = {n} points nothing grows on the steady state."
+        if growth <= 0:
+            return f"The equations are ill posed {where}, but on n = {n} points nothing grows on the steady state."
         if small is not None:
             return (
-                f"The equations are ill posed where u < 0, but on n = {n} points perturbations grow only by "
-                f"e^({rate:.3g} t): nothing comes of it by the end, t = {t_end:g}."
+                f"The equations are ill posed {where}, but on n = {n} points perturbations grow only by "
+                f"e^({growth:.3g} t): nothing comes of it by the end, t = {t_end:g}."
             )
         if found.t_blow_up < math.inf:
             return (
-                f"The equations are ill posed where u < 0, but on n = {n} points perturbations grow only by "
-                f"e^({rate:.3g} t): {when}, after the end."
+                f"The equations are ill posed {where}, but on n = {n} points perturbations grow only by "
+                f"e^({growth:.3g} t): {when}, after the end."
             )
         return (
-            f"The equations are ill posed where u < 0, but on n = {n} points perturbations grow only by "
-            f"e^({rate:.3g} t), so slowly that each step of theirs is lost in the last bit."
+            f"The equations are ill posed {where}, but on n = {n} points perturbations grow only by "
+            f"e^({growth:.3g} t), so slowly that each step of theirs is lost in the last bit."
         )
     if kind is Kind.TRANSIENT:
         first = f"The steady state is well posed, but u dips below zero at t = {t_dip:.3g}"

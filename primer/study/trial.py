@@ -9,6 +9,7 @@ from primer.schemes.limit import NEUTRAL, factor, largest_step
 from primer.schemes.marching import grid_of
 from primer.study.companions import MOST, march
 from primer.study.kinds import Diagnosis, Kind
+from primer.study.waves import of_waves
 from primer.study.where import frozen
 
 _EARLIEST, _LATEST = 0.87, 1.26  # of a measured blow-up: what round-off elsewhere, or another order of sums, may change
@@ -25,7 +26,7 @@ def tried(problem, n, dt, t_end, seed, dtype, time):
     main = march(problem, n, dt, t_end, seed, dtype, time)
     lost = math.isfinite(main.t_lost)
     places = frozen(problem, n, _alive(main))
-    growths, ns, own, bad, limit, length = _linear(problem, n, dt, main, time)
+    growths, ns, own, bad, limit, length, amplification = _linear(problem, n, dt, main, time)
     rises = _rise(growths, ns)
     size = f"{', '.join(f'{g:.3g}' for g in growths)} on n = {', '.join(map(str, ns))}"
     about = {
@@ -46,7 +47,7 @@ def tried(problem, n, dt, t_end, seed, dtype, time):
     seeded = bool(lost and seed is not None and _lives_without(problem, main, dtype, time))
     return Diagnosis(
         kind, interval, max(own, bad) if max(own, bad) > 0 else own, reason, seed, seeded, main.t_lost, growths, length,
-        limit if kind is Kind.SCHEME else math.nan, places.text, True,
+        limit if kind is Kind.SCHEME else math.nan, places.text, True, amplification,
     )  # fmt: skip
 
 
@@ -58,7 +59,7 @@ def _alive(main):
 
 
 def _linear(problem, n, dt, main, time):
-    """(growths, grids, own growth, scheme's growth, limit, wavelength) about a few of the states visited."""
+    """(growths, grids, own growth, scheme's growth, limit, wavelength, amplification) about a few states visited."""
     states = _alive(main)
     chosen = states[np.unique([0, len(states) // 2, len(states) - 1])]
     lam = np.concatenate([rates(problem, n, state) for state in chosen])
@@ -75,7 +76,8 @@ def _linear(problem, n, dt, main, time):
     for m in grids:
         growth = [rates(problem, m, _on(state, m)).real.max() for state in chosen]
         found.append(float(max(growth)))
-    return tuple(found), grids, own if mine.any() else float(by_step.max()), bad, limit, math.nan
+    own = own if mine.any() else float(by_step.max())
+    return tuple(found), grids, own, bad, limit, *of_waves(problem, n, dt, chosen, time)
 
 
 def _on(state, m):

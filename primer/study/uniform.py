@@ -9,6 +9,7 @@ from primer.schemes.jacobian import rates
 from primer.schemes.limit import NEUTRAL, factor, largest_step
 from primer.schemes.marching import fields_of, grid_of, slope_of
 from primer.study.kinds import Diagnosis, Kind
+from primer.study.waves import folded
 
 _RISES = 0.2  # the power of n from which on growth is not bounded
 _SPREAD = 1.26  # a blow-up comes this factor sooner or later than e-foldings say
@@ -81,7 +82,7 @@ def about_uniform(problem, n, dt, t_end, seed, epsilon, time):
     return Diagnosis(
         kind, interval, rate if rate > 0 else float(scheme_growth.max()), reason, seed, blows and seed is not None,
         t_lost, growths, length, limit if kind is Kind.SCHEME else math.nan,
-        "for all x" if rises else "", False,
+        "for all x" if rises else "", False, folded(np.exp(dt * scheme_growth).max(axis=1)),
     )  # fmt: skip
 
 
