@@ -127,6 +127,47 @@ def test_kinds():
     assert kinds("a fourth derivative", (1e-3, 0.5), (3e-4, 4.0)) == ["scheme", "unstable"]
 
 
+def test_equations_that_become_ill_posed_in_time():
+    """u_t = cos(t) u_xx is ill posed from t = pi/2 to 3 pi/2; with a hundredth of it, a coarse grid recovers."""
+    found = diagnose(PDE("u_t = cos(t)*u_xx", {"u": "sin(x)"}), 32, 1e-3, 6.0)
+    assert found.kind == "ill-posed"
+    assert "for all x, from about t = " in found.reason
+    since = float(found.reason.split("from about t = ")[1].split()[0])
+    assert math.pi / 2 - 0.1 < since < math.pi / 2 + 0.6
+    gentle = PDE("u_t = 0.01*cos(t)*u_xx", {"u": "sin(x)"})
+    assert diagnose(gentle, 32, 1e-2, 6.0).kind == "transient"
+    assert diagnose(gentle, 32, 1e-2, 1.5).kind == "converges"
+
+
+def test_what_only_the_scheme_lets_grow_is_its_fault_before_anything_is_lost():
+    """Forward Euler multiplies the shortest waves of i a_t = -a_xx by e^(2.7 t) here."""
+    problem = PDE("i*a_t = -a_xx", {"a": "exp(cos(x))"})
+    found = diagnose(problem, 48, 1e-4, 2.0)
+    assert (found.kind, found.stable_dt) == ("scheme", 0.0)
+    rate = 4 / (2 * np.pi / 48) ** 2
+    assert f"e^({np.log1p((1e-4 * rate) ** 2) / 2e-4:.3g} t)" in found.reason
+    assert diagnose(problem, 48, 1e-5, 0.1).kind == "converges"
+
+
+def test_a_front_that_no_grid_resolves_is_not_called_the_solutions_own():
+    """Viscous Burgers has a solution for ever; central differences lose it where u h exceeds the viscosity by far."""
+    steep = PDE("u_t = u_xx - (u^2/2)_x", {"u": "1000*sin(x)"})
+    found = diagnose(steep, 64, 1e-4, 0.1)
+    assert found.kind == "undecided"
+    assert "a front that no such grid resolves" in found.reason
+    assert diagnose(PDE("u_t = u_xx + u^2", {"u": "1 + 0.1*cos(x)"}), 32, 1e-3, 2.0).kind == "unstable"
+
+
+@pytest.mark.parametrize(("text", "data"), [("u_t = 2*u", "0"), ("u_t = v; v_t = -u", "0"), ("u_t = 0*u", "1")])
+def test_equations_without_derivatives(text, data):
+    """About uniform states, and such as vary, every wave does the same."""
+    fields = [part.split("_t")[0].strip() for part in text.split(";")]
+    for initial in (float(data), "sin(x)"):
+        found = diagnose(PDE(text, dict.fromkeys(fields, initial)), 32, 1e-2, 3.0)
+        factor = {"u_t = 2*u": 1.02, "u_t = v; v_t = -u": math.hypot(1, 1e-2), "u_t = 0*u": 1.0}[text]
+        np.testing.assert_allclose(found.amplification, factor)
+
+
 def test_freezing_lies_and_central_differences_do_not():
     problem, n, time = PROBLEMS["freezing lies"]
     found = diagnose(problem, n, 1e-3, 1.0, time=time)

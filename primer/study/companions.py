@@ -70,10 +70,17 @@ def march(problem: Any, n: int, dt: float, t_end: float, seed, dtype, time) -> F
 
 
 def alive(main):
-    """States before the blow-up has a hand in them."""
+    """(states, their times) before the blow-up has a hand in them."""
     good = main.t <= 0.8 * main.t_lost if math.isfinite(main.t_lost) else main.t >= 0
     good[0] = True
-    return main.states[good]
+    return main.states[good], main.t[good]
+
+
+def a_few(main):
+    """[(state, time)] of those alive: at the beginning, at a quarter of their time, half, three quarters, the end."""
+    states, times = alive(main)
+    places = {int(np.argmin(np.abs(times - part * times[-1]))) for part in (0, 0.25, 0.5, 0.75, 1)}
+    return [(states[i], float(times[i])) for i in sorted(places)]
 
 
 def on_grid(state, m):
@@ -92,9 +99,8 @@ def on_grid(state, m):
 
 def finer(problem, main, times, dt, t_end, seed, dtype, time):
     """The run on so many times the points, with a step that the scheme allows there; None if it takes too long."""
-    n, states = times * main.n, alive(main)
-    chosen = states[np.unique([0, len(states) // 2, len(states) - 1])]
-    limit = min(largest_step(rates(problem, n, on_grid(state, n)), time) for state in chosen)
+    n = times * main.n
+    limit = min(largest_step(rates(problem, n, on_grid(state, n), t), time) for state, t in a_few(main))
     if 0 < limit < math.inf:
         dt = min(dt, BELOW * limit)
     return march(problem, n, dt, t_end, seed, dtype, time) if n * t_end / dt <= MOST else None
