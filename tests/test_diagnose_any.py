@@ -2,11 +2,12 @@
 
 import json
 import math
+from itertools import pairwise
 
 import numpy as np
 import pytest
 
-from primer import EULER, PDE, RK4, BackwardHeat, Seed, Toy, diagnose
+from primer import EULER, PDE, RK4, BackwardHeat, Seed, Toy, diagnose, ftcs
 from primer.__main__ import main
 from primer.schemes.jacobian import rates
 from primer.study.companions import march
@@ -35,6 +36,9 @@ PROBLEMS = {
     "bad Boussinesq": (PDE("u_tt = u_xx + u_xxxx", {"u": "0.01*cos(x)", "u_t": "0"}), 48, RK4),
     "good Boussinesq": (PDE("u_tt = u_xx - u_xxxx", {"u": "0.01*cos(x)", "u_t": "0"}), 48, RK4),
     "Perona-Malik, gentle": (PDE("u_t = (u_x/(1 + u_x^2))_x", {"u": "0.5*sin(x)"}), 48, EULER),
+    "Perona-Malik, steep": (PDE("u_t = (u_x/(1 + u_x^2))_x", {"u": "2*sin(x)"}), 48, EULER),
+    "a fourth derivative": (PDE("u_t = -u_xx - 0.02*u_xxxx", {"u": "0.01*sin(x)"}), 64, RK4),
+    "too small a one": (PDE("u_t = -u_xx - 1e-4*u_xxxx", {"u": "0.01*sin(x)"}), 64, RK4),
     "heat": (PDE("u_t = u_xx", {"u": "sin(x)"}), 48, EULER),
     "freezing lies": (PDE("w_t = i*w_xx + 3*i*cos(x)*w_x", {"w": "exp(cos(x))"}), 48, RK4),
 }  # fmt: skip
@@ -50,9 +54,18 @@ STEPS = {  # dt and t_end
     "bad Boussinesq": [(1e-4, 1.0), (1e-3, 1.0), (1e-5, 1.0), (1e-4, 0.01), (3e-4, 2.0)],
     "good Boussinesq": [(1e-4, 1.0), (1e-3, 1.0), (1e-2, 4.0), (2e-2, 4.0), (1e-3, 2.0)],
     "Perona-Malik, gentle": [(1e-3, 1.0), (5e-3, 1.0), (2e-2, 3.0), (4e-2, 3.0), (1e-3, 2.0)],
+    "Perona-Malik, steep": [(1e-3, 1.0), (1e-4, 0.02), (5e-3, 3.0), (2e-2, 3.0), (1e-3, 8.0)],
+    "a fourth derivative": [(1e-4, 0.5), (1e-3, 0.5), (3e-3, 0.5), (1e-3, 2.0), (3e-4, 4.0)],
+    "too small a one": [(1e-4, 0.02), (1e-4, 0.3), (3e-4, 0.3), (1e-3, 0.3), (1e-4, 1.0)],
     "heat": [(1e-3, 2.0), (5e-3, 2.0), (1.1e-2, 9.0), (3e-2, 3.0), (1e-3, 4.0)],
     "freezing lies": [(1e-3, 1.0), (5e-3, 1.0), (1.5e-2, 3.0), (3e-2, 3.0), (1e-3, 3.0)],
 }
+
+
+def apart(problem, n, t_end):
+    """Differences at the end of runs on n, 2 n and 4 n points, by a step that heat would need; and the size."""
+    ends = [np.array(ftcs(problem, m, 2e-3 * (48 / m) ** 2, t_end, progress=False).final[0]) for m in (n, 2 * n, 4 * n)]
+    return [np.abs(a - b[::2]).max() for a, b in pairwise(ends)], np.abs(ends[0]).max()
 
 
 def lost(problem, n, dt, t_end, time):
@@ -76,6 +89,11 @@ def test_against_the_runs(name):
         elif found.kind == "scheme":
             assert found.stable_dt < dt
             assert "though nothing is lost by then" in found.reason
+        elif found.kind == "ill-posed":
+            assert "filled with waves of two to four spacings" in found.reason
+            (first, second), size = apart(problem, n, t_end)
+            assert second > 0.6 * first > 0.02 * size  # refining does not bring the grids together
+            continue
         else:
             assert found.kind in ("converges", "hidden", "transient", "unstable"), (dt, found)
         if found.kind == "scheme" and here < math.inf:
@@ -88,7 +106,9 @@ def test_against_the_runs(name):
             assert lost(problem, 4 * n, dt / 16, t_end, time) < 1.05 * gentle
         if found.kind == "hidden":
             later = max(30 * t_end, 3.0)
-            assert lost(problem, 4 * n, dt / 16, later, time) < math.inf
+            if lost(problem, 4 * n, dt / 16, later, time) == math.inf:  # growth saturates: the grids part, then
+                (first, second), size = apart(problem, n, later)
+                assert second > 0.6 * first > 0.02 * size
 
 
 def kinds(name, *settings):
@@ -103,6 +123,49 @@ def test_kinds():
     assert kinds("layers, slow", (1e-3, 3.0)) == ["converges"]
     assert kinds("layers, fast", (1e-3, 8.0)) == ["ill-posed"]
     assert kinds("KdV by Euler", (1e-4, 2.0)) == ["scheme"]
+    assert kinds("Perona-Malik, steep", (1e-3, 1.0), (1e-4, 0.02)) == ["ill-posed", "hidden"]
+    assert kinds("a fourth derivative", (1e-3, 0.5), (3e-4, 4.0)) == ["scheme", "unstable"]
+
+
+def test_equations_that_become_ill_posed_in_time():
+    """u_t = cos(t) u_xx is ill posed from t = pi/2 to 3 pi/2; with a hundredth of it, a coarse grid recovers."""
+    found = diagnose(PDE("u_t = cos(t)*u_xx", {"u": "sin(x)"}), 32, 1e-3, 6.0)
+    assert found.kind == "ill-posed"
+    assert "for all x, from about t = " in found.reason
+    since = float(found.reason.split("from about t = ")[1].split()[0])
+    assert math.pi / 2 - 0.1 < since < math.pi / 2 + 0.6
+    gentle = PDE("u_t = 0.01*cos(t)*u_xx", {"u": "sin(x)"})
+    assert diagnose(gentle, 32, 1e-2, 6.0).kind == "transient"
+    assert diagnose(gentle, 32, 1e-2, 1.5).kind == "converges"
+
+
+def test_what_only_the_scheme_lets_grow_is_its_fault_before_anything_is_lost():
+    """Forward Euler multiplies the shortest waves of i a_t = -a_xx by e^(2.7 t) here."""
+    problem = PDE("i*a_t = -a_xx", {"a": "exp(cos(x))"})
+    found = diagnose(problem, 48, 1e-4, 2.0)
+    assert (found.kind, found.stable_dt) == ("scheme", 0.0)
+    rate = 4 / (2 * np.pi / 48) ** 2
+    assert f"e^({np.log1p((1e-4 * rate) ** 2) / 2e-4:.3g} t)" in found.reason
+    assert diagnose(problem, 48, 1e-5, 0.1).kind == "converges"
+
+
+def test_a_front_that_no_grid_resolves_is_not_called_the_solutions_own():
+    """Viscous Burgers has a solution for ever; central differences lose it where u h exceeds the viscosity by far."""
+    steep = PDE("u_t = u_xx - (u^2/2)_x", {"u": "1000*sin(x)"})
+    found = diagnose(steep, 64, 1e-4, 0.1)
+    assert found.kind == "undecided"
+    assert "a front that no such grid resolves" in found.reason
+    assert diagnose(PDE("u_t = u_xx + u^2", {"u": "1 + 0.1*cos(x)"}), 32, 1e-3, 2.0).kind == "unstable"
+
+
+@pytest.mark.parametrize(("text", "data"), [("u_t = 2*u", "0"), ("u_t = v; v_t = -u", "0"), ("u_t = 0*u", "1")])
+def test_equations_without_derivatives(text, data):
+    """About uniform states, and such as vary, every wave does the same."""
+    fields = [part.split("_t")[0].strip() for part in text.split(";")]
+    for initial in (float(data), "sin(x)"):
+        found = diagnose(PDE(text, dict.fromkeys(fields, initial)), 32, 1e-2, 3.0)
+        factor = {"u_t = 2*u": 1.02, "u_t = v; v_t = -u": math.hypot(1, 1e-2), "u_t = 0*u": 1.0}[text]
+        np.testing.assert_allclose(found.amplification, factor)
 
 
 def test_freezing_lies_and_central_differences_do_not():

@@ -346,6 +346,64 @@ def test_a_step_that_fails_where_it_is_perturbed():
 
 
 @pytest.mark.parametrize(
+    ("step", "text"),
+    [
+        (lambda u, dt: u + 1e-4 * d2(u), "step does the same whatever dt is"),
+        (lambda u, dt: u - 1e-4 * d2(u), "step does the same whatever dt is"),
+        (lambda u, dt: d2(u), "step does the same whatever dt is"),
+        (lambda u, dt: dt * d2(u), "as dt -> 0 step does not tend to doing nothing"),
+        (lambda u, dt: np.floor(u + dt * d2(u)), "nor round them"),
+        (lambda u, dt: u, "step gives back what it is given"),
+        (
+            lambda u, dt: u + dt * d2(u) if np.ptp(u, axis=1).max() < 1e-12 else u * np.nan,
+            "from some perturbed state it is not fin",
+        ),
+    ],
+)
+def test_what_is_no_step_of_a_time_dt_is_not_judged(step, text):
+    for base in (flat(1.0), flat(1.0, 0.5)):
+        found = examine(step, base, GRIDS, 1e-3)
+        assert found.kind == "undecided"
+        assert text in found.reason
+
+
+def test_a_large_implicit_step_is_a_step():
+    """It undoes a perturbation altogether, with dt = 1e3 as with a quarter of it, and not with a tiny one."""
+    assert examine(implicit(lambda k: -1 - k**2), flat(1.0), GRIDS, 1e3).kind == "stable"
+
+
+def test_what_has_no_derivative_is_said_to_be_rough():
+    """It rounds what it adds; what it is given it leaves as it is."""
+    found = examine(lambda u, dt: u + np.round(dt * d2(u), 3), curved(np.sin), GRIDS, 1e-2)
+    assert found.kind == "undecided"
+
+
+def test_numbers_may_come_in_any_wrapping():
+    plain = examine(euler(d2), flat(1.0), GRIDS, 1e-3)
+    wrapped = (
+        lambda u, dt: (u + dt * d2(u)).astype(object),
+        lambda u, dt: np.ma.masked_array(u + dt * d2(u)),
+        lambda u, dt: [[float(each) for each in row] for row in u + dt * d2(u)],
+        lambda u, dt: (u + dt * d2(u)).astype(complex),
+    )
+    for step in wrapped:
+        found = examine(step, lambda n: [[1.0] * n], GRIDS, 1e-3)
+        assert (found.kind, found.calls) == (plain.kind, plain.calls)
+        np.testing.assert_array_equal(found.growth, plain.growth)
+
+
+def test_a_state_that_is_shared_and_changed_in_place_stays_what_it_was():
+    shared = {n: np.ones((1, n)) for n in GRIDS}
+
+    def step(u, dt):
+        u -= dt * d2(u)
+        return u
+
+    assert examine(step, shared.__getitem__, GRIDS, 1e-4).kind == "ill-posed"
+    assert all((state == 1).all() for state in shared.values())
+
+
+@pytest.mark.parametrize(
     ("step", "base", "text"),
     [
         (lambda u, dt: u[:, :-1], flat(1.0), r"step must return fields of the shape that it is given, \(1, 32\), got"),
@@ -354,6 +412,19 @@ def test_a_step_that_fails_where_it_is_perturbed():
         (lambda u, dt: u * 1j, flat(1.0), "let state give complex fields"),
         (euler(d2), lambda n: np.zeros(n), r"state\(32\) must give fields of shape \(m, n\) or \(m, ny, nx\)"),
         (euler(d2), lambda n: np.full((1, n), np.inf), r"state\(32\) must be finite"),
+        (euler(d2), lambda n: 1 / 0, r"state\(32\) fails, ZeroDivisionError: 'division by zero'"),
+        (
+            euler(d2),
+            lambda n: np.ones((1 if n < 64 else 2, n)),
+            r"the same fields on each grid.*\(1, 32\) for n = 32 and",
+        ),
+        (euler(d2), lambda n: np.ones((1, 64)), "on more points for a larger n"),
+        (
+            lambda u, dt: u.T,
+            flat(1.0),
+            r"step must return fields of the shape that it is given, \(1, 32\), got \(32, 1\)",
+        ),
+        (lambda u, dt: u if u.shape[-1] < 128 else u * np.nan, flat(1.0), r"after one step from state\(128\)"),
     ],
 )
 def test_wrong_input_is_one_sentence(step, base, text):
@@ -391,6 +462,34 @@ def test_what_would_take_too_long_is_not_started():
     with pytest.raises(ValueError, match=r"at least 80 calls a grid, together some 2\d seconds: more"):
         examine(step, flat(1.0), GRIDS, patience=2.0)
     assert len(calls) <= 2
+
+
+def test_a_minute_a_call_is_an_estimate_in_minutes(monkeypatch):
+    """By a clock of the test's own: 60 s a call, three grids, 80 calls each, four hours."""
+    clock = [0.0]
+    monkeypatch.setattr(black_box.time, "perf_counter", lambda: clock[0])
+    calls = []
+
+    def step(u, dt):
+        calls.append(1)
+        clock[0] += 60.0
+        return u + dt * d2(u)
+
+    with pytest.raises(ValueError, match=r"step takes 60 s a call on n = 32, .* together some 240 minutes: more than"):
+        examine(step, flat(1.0), GRIDS)
+    assert len(calls) == 1
+
+
+def test_a_step_that_is_slow_on_the_finest_grid_alone_is_not_started_either(monkeypatch):
+    clock = [0.0]
+    monkeypatch.setattr(black_box.time, "perf_counter", lambda: clock[0])
+
+    def step(u, dt):
+        clock[0] += 5.0 if u.shape[-1] == 128 else 1e-3
+        return u + dt * d2(u)
+
+    with pytest.raises(ValueError, match=r"step takes 5 s a call on n = 128"):
+        examine(step, flat(1.0), GRIDS)
 
 
 def test_the_picture_shows_each_step_and_the_limit():

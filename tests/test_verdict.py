@@ -380,3 +380,24 @@ def test_a_verdict_takes_moments():
         start = time.process_time()
         verdict(text, at=at, **parameters)
         assert time.process_time() - start < 5  # a tenth is usual; the rest is for slow machines
+
+
+@pytest.mark.parametrize(
+    ("text", "at", "direction"),
+    [
+        ("u_xt - u_x = y", {"u": 1, "u_x": 2, "x": 1j, "y": -0.5}, (0, 1)),
+        ("u_xt - u_x = 0*u_y", {}, (0, 1)),
+        ("u_yt = u_xy", {}, (1, 0)),
+        ("u_xt - 2*u_yt = u_xx - 4*u_yy", {}, (0.8944, 0.4472)),
+    ],
+)
+def test_waves_that_the_equations_leave_free_leave_the_verdict_open(text, at, direction):
+    """There every lambda is a root of the determinant: 0 = 0."""
+    found = verdict(text, at=at) if at else verdict(text)
+    assert found.kind == "undecided"
+    assert f"the direction ({direction[0]:.4g}, {direction[1]:.4g}) are left free" in found.reason
+
+
+def test_what_is_ill_posed_elsewhere_is_so_whatever_is_left_free():
+    assert verdict("u_xt = -u_xxx + 0*u_y").kind == "ill-posed"  # -xi_2 alone is free
+    assert verdict("u_xxt + u_yyt = u_xx + u_yy").kind == "well-posed"  # a factor without real directions

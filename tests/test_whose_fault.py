@@ -5,6 +5,7 @@ import pytest
 
 from primer import examine
 from primer.scenes.whose_fault import SUSPECTS, stranger, strangers_state
+from primer.view import PDEExplorer
 
 
 @pytest.mark.parametrize(
@@ -28,3 +29,13 @@ def test_the_stranger_has_a_sign_wrong():
         return u - dt * ((minus - plus) / (2 * h) - 0.01 * (plus - 2 * u + minus) / h**2)
 
     assert examine(mended, strangers_state, dt=1e-4).kind == "stable"
+
+
+def test_the_explorer_has_a_preset_for_each_with_its_equation_and_data():
+    presets = {name: state for name, state in PDEExplorer.presets.items() if name.startswith("whose fault")}
+    assert len(presets) == len(SUSPECTS) + 1
+    for suspect, state in zip(SUSPECTS.values(), presets.values(), strict=False):
+        assert f"pde={suspect.problem.text},at=" in state
+        for field, data in suspect.problem.start:
+            assert f"{field} = {data}" in state
+    assert "pde=u_t = -u_x - 0.01*u_xx," in presets["whose fault: the stranger"]  # the wrong sign and all

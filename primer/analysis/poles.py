@@ -97,6 +97,31 @@ def on_curves(D):
     return max(found, key=lambda item: item[0])
 
 
+def undetermined(D):
+    """A direction (x, y) in which det M vanishes at every |xi| whatever lambda: a wave there may do anything; or None.
+
+    det M is a sum of homogeneous polynomials in xi, one for each power of lambda and each degree: all must vanish.
+    """
+    parts: dict = {}
+    for (n, a, b), c in D.items():
+        parts.setdefault((n, a + b), {})[b] = c
+    if all(a for _, a, _ in D):
+        return 0.0, 1.0
+    with mp.workdps(DIGITS):
+        shortest = min(parts.values(), key=max)
+        slopes = [z.real for z, _ in roots([shortest.get(b, mp.mpc(0)) for b in range(max(shortest) + 1)])
+                  if abs(z.imag) <= mp.sqrt(ZERO) * (1 + abs(z))]  # fmt: skip
+        for slope in slopes:
+            if all(_vanishes(part, slope) for part in parts.values()):
+                return float(1 / mp.sqrt(1 + slope**2)), float(slope / mp.sqrt(1 + slope**2))
+    return None
+
+
+def _vanishes(part, slope):
+    terms = [c * slope**b for b, c in part.items()]
+    return abs(sum(terms)) <= mp.sqrt(ZERO) * max(map(abs, terms))
+
+
 def _beside(F, z, slope, side):
     """F at k = z and the slope + side/K as a polynomial in lambda and K."""
     return collected(

@@ -15,7 +15,7 @@ from primer.analysis.fitted import computed
 from primer.analysis.laws import NotPolynomialError, exact_symbol
 from primer.analysis.loss import loss
 from primer.analysis.outcome import Kind, Verdict, undecided
-from primer.analysis.poles import of_law, on_curves
+from primer.analysis.poles import of_law, on_curves, undetermined
 from primer.analysis.puiseux import branches
 from primer.analysis.quadratic import quadratic
 from primer.analysis.roots import DIGITS
@@ -98,9 +98,8 @@ def _judged(symbol, basis=None):
         if math.isinf(limit) and limit > 0:
             return undecided(f"growth is unbounded near |xi| = {k:.4g}, on a curve where a time derivative drops out")
     law, direction, drift, doubt = (_along_line if symbol.dim == 1 else _in_plane)(symbol, real)
-    if basis:
-        direction = tuple(float(sum(d * b[j] for d, b in zip(direction, basis, strict=True))) + 0.0 for j in range(3))
-    where = "" if symbol.dim == 1 else f" in the direction ({', '.join(f'{x:.4g}' for x in direction)})"
+    direction = _in_their_space(direction, basis)
+    where = "" if symbol.dim == 1 else f" in the direction {_written(direction)}"
     if law.exponent > BEYOND / 20:
         reason = (
             f"Growth is unbounded at every |xi|, near the direction{where[17:]}, where a time derivative drops out."
@@ -112,6 +111,9 @@ def _judged(symbol, basis=None):
         return Verdict(Kind.ILL_POSED, law.exponent, law.coefficient, direction, math.inf, True, reason, math.inf)
     if doubt:
         return undecided(f"the Newton polygon gives {law}{doubt}")
+    if symbol.dim == 2 and (free := undetermined(D)):
+        toward = _written(_in_their_space(free, basis))
+        return undecided(f"waves in the direction {toward} are left free, as det M vanishes there; elsewhere {law}")
     bound, k = _supremum(symbol, law, real)
     short = f"for short waves {law}" if law.coefficient else "for short waves Re lambda vanishes"
     if math.isinf(bound):
@@ -131,6 +133,16 @@ def _judged(symbol, basis=None):
     if math.isnan(lost):
         reason += " Whether it is weakly or strongly well-posed was not decided."
     return Verdict(Kind.WELL_POSED, law.exponent, law.coefficient, direction, bound, bound > 0, reason, lost)
+
+
+def _in_their_space(direction, basis):
+    if not basis:
+        return direction
+    return tuple(float(sum(d * b[j] for d, b in zip(direction, basis, strict=True))) + 0.0 for j in range(3))
+
+
+def _written(direction):
+    return f"({', '.join(f'{x:.4g}' for x in direction)})"
 
 
 def _power(q):

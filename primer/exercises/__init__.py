@@ -16,7 +16,16 @@ from primer.exercises.grid_dependence import (
     check_03_5,
 )
 from primer.exercises.living_with_ill_posedness import ask_08_1, ask_08_2, ask_08_3, check_08_1, check_08_2, check_08_3
-from primer.exercises.scheme_or_pde import ask_04_1, ask_04_2, ask_04_3, check_04_1, check_04_2, check_04_3
+from primer.exercises.scheme_or_pde import (
+    ask_04_1,
+    ask_04_2,
+    ask_04_3,
+    ask_04_5,
+    check_04_1,
+    check_04_2,
+    check_04_3,
+    check_04_5,
+)
 from primer.exercises.speed_against_error import ask_05_1, ask_05_2, ask_05_3, check_05_1, check_05_2, check_05_3
 from primer.exercises.start_here import ask_00_1, ask_00_2, check_00_1, check_00_2
 from primer.exercises.testing_a_pde import (
@@ -48,6 +57,7 @@ __all__ = [
     "ask_04_1",
     "ask_04_2",
     "ask_04_3",
+    "ask_04_5",
     "ask_05_1",
     "ask_05_2",
     "ask_05_3",
@@ -76,6 +86,7 @@ __all__ = [
     "check_04_1",
     "check_04_2",
     "check_04_3",
+    "check_04_5",
     "check_05_1",
     "check_05_2",
     "check_05_3",

@@ -125,3 +125,33 @@ def check_04_3(answer: str, seed: int = 0) -> Feedback:
     kind = _KINDS[_third(seed)]
     hints = {other: hint for other, hint in _HINTS.items() if other != kind}
     return choose(answer, kind, "and diagnose says so too.", hints)
+
+
+_FAULTS = ("ill-posed", "scheme", "unstable", "stable", "scheme")  # of primer.scenes.whose_fault.PROGRAMS
+_ASKED = {
+    "scheme": "growth that goes away as dt -> 0 is the scheme's: how do `growths` with dt, dt/2 and dt/4 compare?",
+    "ill-posed": "that is growth that rises with n as dt -> 0: does `growth` do so from grid to grid?",
+    "unstable": "that is growth that stays as dt -> 0, and is the same on each grid. Is it?",
+    "stable": "something grows: with which step, and on which grid?",
+}
+
+
+def _fifth(seed):
+    return variant("04_5", seed, program=tuple(range(len(_FAULTS))))["program"]
+
+
+def ask_04_5(seed: int = 0) -> str:
+    """The question: whose fault it is, of a program that is only given as a function."""
+    number = _fifth(seed)
+    return (
+        f"program = primer.scenes.whose_fault.PROGRAMS[{number}] is a solver, program.step, with a state at rest, "
+        "program.state, and the step program.dt that its author uses on 64, 128 and 256 points. Examine it. Is it "
+        "'scheme', 'ill-posed', 'unstable' or 'stable'?"
+    )
+
+
+def check_04_5(answer: str, seed: int = 0) -> Feedback:
+    """Whether ``answer`` is the :class:`primer.study.examination.Fault` of the program; a ``Feedback``."""
+    kind = _FAULTS[_fifth(seed)]
+    hints = {other: hint for other, hint in _ASKED.items() if other != kind}
+    return choose(answer, kind, "and nobody read the program.", hints)

@@ -55,7 +55,7 @@ def growth_map(law, I, ratio, compaction, phi, k=1e4):
 
 
 def neutral_stress_ratio(friction, I):
-    """The stress ratio T = tau/p above which CIDR is unstable to short waves (bounded, so well posed all the same).
+    """The stress ratio T = tau/p above which short waves grow under CIDR (bounded, so well posed all the same).
 
     lambda_3 changes sign at the largest root of a quartic in T that knows only mu and s = I mu' (with Lemma 1's
     differential equation everything else drops out of the discriminant of N(x))::

@@ -30,6 +30,8 @@ def verdict(law: Law, state: BaseState) -> Verdict:
     primer.analysis.verdict.Verdict, with the fields it has there for a single state. For an array of states the fields
     are arrays of the states' shape (direction: (2,) + shape). direction is in the frame of the major compressive axis;
     coefficient is inf if the growth is unbounded already at finite |xi| (an incompressible law with |B| >= 1).
+    ``unstable`` is said of the frozen equations: something grows. They do not say whether the sheared flow itself,
+    which is not uniform, is unstable.
 
     Raises
     ------
@@ -72,7 +74,7 @@ def growth_limit(law: Law, state: BaseState) -> Numbers:
     >>> from primer import CIDR, BaseState
     >>> from primer.granular import EXAMPLE_COMPACTION, GLASS_BEADS
     >>> law = CIDR(GLASS_BEADS.friction, EXAMPLE_COMPACTION)
-    >>> print(f"{growth_limit(law, BaseState(p=0.2, phi=0.55, I=0.1)):.6f}")  # unstable, yet well posed
+    >>> print(f"{growth_limit(law, BaseState(p=0.2, phi=0.55, I=0.1)):.6f}")  # something grows, yet it is well posed
     1.000070
     """
     return leading(coefficients(law, state)).limit
@@ -132,5 +134,5 @@ def _reason(incompressible, kind, exponent, coefficient, limit, bound, x):
         return f"the growth rate rises like {coefficient:.6g} {power} {where}{drift}"
     if incompressible:
         return "every direction is damped, or neutral, as |xi| -> infinity"
-    state = "unstable but bounded" if bound > 0 else "damped"
+    state = "growth, but bounded" if bound > 0 else "damped"
     return f"the largest growth rate tends to {limit:.6g} as |xi| -> infinity, {where}: {state}"

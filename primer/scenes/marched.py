@@ -69,7 +69,9 @@ def in_words(found: GridComparison) -> str:
     if np.isinf(found.lost).all():
         return f"On {sizes} points the run reaches t = {found.t[-1]:.4g}{_agreement(found)}"
     times = ", ".join(f"by t = {t:.3g}" if t < math.inf else f"not by {found.t[-1]:.3g}" for t in found.lost)
-    lost = f"On {sizes} points the run is lost {times} (grown a thousandfold), and half the step changes nothing"
+    looks = f"looked at {found.t.size - 1} times"
+    lost = f"On {sizes} points the run is lost {times} (grown a thousandfold; {looks})"
+    lost += ", and half the step moves that by a tenth at most"  # as compare_grids tells a step that is to blame
     if found.n.size == 1:
         return f"{lost}: other grids must tell why."
     if all(coarse > 1.1 * fine for coarse, fine in pairwise(found.lost)):

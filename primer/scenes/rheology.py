@@ -35,7 +35,7 @@ class Kind(StrEnum):
     """What the frozen equations are at a state."""
 
     STABLE = "stable"
-    UNSTABLE = "unstable"  # bounded growth, so well posed all the same
+    UNSTABLE = "unstable"  # the frozen equations: bounded growth, so well posed all the same
     ILL_POSED = "ill-posed"
     UNDECIDED = "undecided"  # a knife edge that the orders kept do not decide
     NOT_ADMITTED = "not admitted"  # the law knows no such flow
@@ -49,7 +49,7 @@ class RheologyMap:
     ----------
     I : array of shape (n,)            inertial numbers
     ratio : array of shape (m,)        p/C(phi); a straight edge lies half-way between two of them, or two of I
-    kind : array of shape (m, n)       0 damped, 1 unstable and bounded, 2 ill posed like |xi| (or |xi|^(2/3)), 3 ill
+    kind : array of shape (m, n)       0 damped, 1 growth, but bounded, 2 ill posed like |xi| (or |xi|^(2/3)), 3 ill
                                        posed like |xi|^2, as ``primer.view.granular_growth.KINDS``; nan if not admitted
     edges : tuple of pairs of arrays   curves (I, ratio) on which that changes, in closed form
     top : array of shape (n,)          the p/C(phi) below which the law admits a state; infinite if all

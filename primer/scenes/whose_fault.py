@@ -1,7 +1,7 @@
 """Whose fault is it? Four computations that blow up or change with the grid, for notebook 04: one of each kind.
 
 Three are equations with data, a grid and a step; of the fourth only a function is known. Guess before you ask
-``diagnose`` and ``examine``.
+``diagnose`` and ``examine``. ``PROGRAMS`` are more functions, for an exercise.
 """
 
 import math
@@ -60,3 +60,57 @@ def stranger(fields, dt):
 def strangers_state(n):
     """The state at rest of that program: u = 1."""
     return np.ones((1, n))
+
+
+@dataclass(frozen=True)
+class Program:
+    """A solver that is only given as a function: ``step(fields, dt)``, a state at rest ``state(n)``, and a step dt."""
+
+    step: Any
+    state: Any
+    dt: float
+
+
+def _differences(u):
+    """(u_x, u_xx) by central differences on [0, 2 pi)."""
+    left, right, h = np.roll(u, 1, axis=-1), np.roll(u, -1, axis=-1), 2 * np.pi / u.shape[-1]
+    return (right - left) / (2 * h), (left - 2 * u + right) / h**2
+
+
+def _warm(u, dt):
+    return u + dt * 0.5 * _differences(u)[1]
+
+
+def _drifting(u, dt):
+    u_x, u_xx = _differences(u)
+    return u + dt * (u_x + 0.05 * u_xx)
+
+
+def _two_phases(u, dt):
+    return u + dt * (u - u**3 + 0.01 * _differences(u)[1])
+
+
+def _steepening(u, dt):
+    """u_t = -u u_x - 0.02 u_xx from u = 1."""
+    u_x, u_xx = _differences(u)
+    return u - dt * (u * u_x + 0.02 * u_xx)
+
+
+def _string(fields, dt):
+    """u_tt = u_xx by forward Euler: (u, u_t)."""
+    u, u_t = fields
+    return np.stack([u + dt * u_t, u_t + dt * _differences(u)[1]])
+
+
+def _flat(*values):
+    return lambda n: np.outer(values, np.ones(n))
+
+
+#: Programs for exercise 4.5, with the grids of ``examine`` left as they are.
+PROGRAMS = (
+    Program(_steepening, _flat(1.0), 1e-4),
+    Program(_warm, _flat(1.0), 2e-3),
+    Program(_two_phases, _flat(0.0), 1e-3),
+    Program(_drifting, _flat(1.0), 1e-3),
+    Program(_string, _flat(0.0, 0.0), 1e-2),
+)

@@ -43,7 +43,8 @@ def rates(problem: Any, n: int, state: Any = None, t: float = 0.0, space: Any = 
         return np.linalg.eigvals(_quotients(problem, x, state, derivative, t))
     about = _about(problem, x, state, derivative, t)
     if _is_uniform(about):
-        return np.linalg.eigvals(_uniform(about).symbol(_waves(n, derivative, np.arange(n)))).ravel()
+        symbol = _uniform(about).symbol(_waves(n, derivative, np.arange(n)))
+        return np.linalg.eigvals(np.broadcast_to(symbol, (n, *symbol.shape[-2:]))).ravel()  # without derivatives, one
     if len(state) * n <= DENSE:
         return np.linalg.eigvals(about.matrix(n, derivative))
     chosen = np.unique(np.linspace(0, n // 2, _WAVES).astype(int))
@@ -64,7 +65,7 @@ def frozen_rates(problem: Any, n: int, state: Any, places: np.ndarray, t: float 
     about = _about(problem, grid.x, _state(problem, grid.x, state), derivative, t)
     waves = _waves(n, derivative, np.arange(n))
     symbol = about.symbol(lambda m: waves(m)[:, None], derivative)
-    symbol = np.broadcast_to(symbol, (n, grid.x.size, *symbol.shape[2:]))[:, places]
+    symbol = np.broadcast_to(symbol, (n, grid.x.size, *symbol.shape[-2:]))[:, places]
     return np.linalg.eigvals(symbol)
 
 

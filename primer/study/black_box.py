@@ -94,6 +94,7 @@ class Box:
     ----------
     n, shape     the number that ``state`` was given, and (r, ...) of the real fields
     base         the base state as ``state`` gave it
+    state        the same in units of the fields
     uniform      whether each field of it is one number
     moved        how far one step moves it, in units of the fields
     seconds      one call's
@@ -101,7 +102,13 @@ class Box:
 
     def __init__(self, step, state, n, dt, meter):
         self._step, self.n, self.meter = step, n, meter
-        self.base = _checked_base(state(n), n)
+        try:
+            given = state(n)
+        except Exception as problem:
+            raise ValueError(
+                f"state must give the base state, but state({n}) fails, {type(problem).__name__}: {shown(str(problem))}"
+            ) from problem
+        self.base = _checked_base(given, n)
         self.complex = self.base.dtype.kind == "c"
         real = self._split(self.base)
         axes = tuple(range(1, real.ndim))
@@ -115,7 +122,8 @@ class Box:
         before = meter.seconds
         after = self._first(dt)
         self.seconds = meter.seconds - before
-        self.moved = float(np.abs(after - real / self.scale).max())
+        self.state = real / self.scale
+        self.moved = float(np.abs(after - self.state).max())
 
     def step(self, change, dt):
         """One step from the base state plus ``change``, of ``shape``: the new fields in the same units.
@@ -142,12 +150,9 @@ class Box:
     def _taken(self, found):
         if found is None:
             raise TypeError("step must return the new fields, got None (if it changes them in place, return them)")
-        try:
-            found = np.array(found)
-        except ValueError:
-            found = np.array(None)
+        given, found = found, numbers(found)
         if found.dtype.kind not in "iufc":
-            raise TypeError(f"step must return an array of numbers, got {shown(found)}")
+            raise TypeError(f"step must return an array of numbers, got {shown(given)}")
         if found.shape != self.base.shape:
             raise ValueError(
                 f"step must return fields of the shape that it is given, {self.base.shape}, got {found.shape}"
@@ -201,13 +206,21 @@ class Box:
         return None
 
 
-def _checked_base(fields, n):
+def numbers(given):
+    """A copy as an array; numbers that came as objects are numbers. What is none is left as it is."""
     try:
-        fields = np.array(fields)
-    except ValueError:
-        fields = np.array(None)
+        found = np.array(given)
+        if found.dtype == object:
+            found = found.astype(complex if any(isinstance(each, complex) for each in found.flat) else float)
+    except (TypeError, ValueError):
+        found = np.array(None)
+    return found
+
+
+def _checked_base(fields, n):
+    given, fields = fields, numbers(fields)
     if fields.dtype.kind not in "iufc":
-        raise TypeError(f"state({n}) must give an array of numbers, got {shown(fields)}")
+        raise TypeError(f"state({n}) must give an array of numbers, got {shown(given)}")
     if fields.ndim not in (2, 3) or min(fields.shape[1:]) < 4 or not fields.shape[0]:
         raise ValueError(
             f"state({n}) must give fields of shape (m, n) or (m, ny, nx), at least 4 points each way, "

@@ -11,7 +11,8 @@ from itertools import pairwise
 import numpy as np
 
 from primer.checks import function, integer, real, sequence
-from primer.study.black_box import Box, Exhausted, Lost, Meter
+from primer.study.advance import no_step
+from primer.study.black_box import Box, Exhausted, Lost, Meter, numbers
 from primer.study.fault import judged
 from primer.study.modes import Spectra
 from primer.study.remedy import remedied
@@ -126,7 +127,7 @@ def examine(
     meter = Meter(patience)
     boxes = _timed(step, state, grids, dt, meter)
     try:
-        doubts = [doubt for box in boxes if (doubt := box.doubt(dt))]
+        doubts = [doubt for box in boxes if (doubt := box.doubt(dt) or no_step(box, dt))]
         if doubts:
             return _undecided(grids, dt, meter, f"Cannot tell: {doubts[0]}.")
         seen = _looked_at(boxes, dt)
@@ -141,10 +142,10 @@ def examine(
     except Exhausted:
         text = f"Cannot tell: {meter.calls} calls took {meter.seconds:.0f} s, more than patience = {patience:g} foresaw"
         return _undecided(grids, dt, meter, text + "; fewer or coarser grids, or more patience, would do.")
-    numbers = {name: np.array([getattr(each, name) for each in seen]) for name in ("growth", "error", "amplification")}
+    each_grid = {name: np.array([getattr(one, name) for one in seen]) for name in ("growth", "error", "amplification")}
     growths = np.array([each.growths for each in seen])
     return Examination(
-        Fault(verdict.kind), grids, dt, **numbers, growths=growths, exponent=verdict.exponent,
+        Fault(verdict.kind), grids, dt, **each_grid, growths=growths, exponent=verdict.exponent,
         coefficient=verdict.coefficient, wavelength=np.array(verdict.wavelength), stable_dt=verdict.stable_dt,
         calls=meter.calls, reason=verdict.reason,
     )  # fmt: skip
@@ -160,6 +161,11 @@ def _timed(step, state, grids, dt, meter):
             box.step(np.zeros(box.shape), dt)  # the first call may have had something to compile
             box.seconds = min(box.seconds, meter.seconds - before)
         boxes.append(box)
+        if box.shape[0] != boxes[0].shape[0] or (i and np.prod(box.shape) <= np.prod(boxes[i - 1].shape)):
+            raise ValueError(
+                f"state must give the same fields on each grid, on more points for a larger n, got shapes "
+                f"{boxes[i - 1].base.shape} for n = {boxes[i - 1].n} and {box.base.shape} for n = {n}"
+            )
         need = _CALLS * (sum(each.seconds for each in boxes) + box.seconds * (len(grids) - i - 1))
         if need > meter.patience:
             raise ValueError(
@@ -190,12 +196,12 @@ def _looked_at(boxes, dt):
 
 def _lost(step, state, n, dt, steps=10):
     """What becomes of the base state itself in some steps, if that is a blow-up; else None."""
-    fields = np.array(state(n))
+    fields = numbers(state(n))
     largest = max(np.abs(fields).max(), 1.0)
     for k in range(1, steps + 1):
         try:
             with np.errstate(all="ignore"):  # that it may overflow is the question
-                fields = np.array(step(fields.copy(), dt))
+                fields = numbers(step(fields.copy(), dt))
         except Exception as problem:
             return f"the march from state({n}) fails at step {k}, {type(problem).__name__}"
         if not np.isfinite(fields).all() or np.abs(fields).max() > 1e6 * largest:

@@ -14,7 +14,7 @@ class Kind(StrEnum):
 
     CONVERGES = "converges"  # well posed throughout, and the scheme is stable
     HIDDEN = "hidden"  # ill posed, but this grid cannot see it by the end of the run
-    ILL_POSED = "ill-posed"  # ill posed, and this grid blows up
+    ILL_POSED = "ill-posed"  # ill posed, and this grid feels it: it blows up, or fills with its shortest waves
     TRANSIENT = "transient"  # a well-posed steady state, but ill posed on the way
     SCHEME = "scheme"  # the time step is too large: it amplifies what does not grow of itself
     UNSTABLE = "unstable"  # perturbations grow, no faster on finer grids: the model's own physics

@@ -18,6 +18,7 @@ from primer.study.black_box import Box, Lost
 _DELTAS = 10.0 ** np.arange(-9, 0)  # of a field's size
 _MIDDLE = 3  # 1e-6 and 1e-5: right for a smooth step in double precision
 _DEAF = 1e-3  # of what is done to larger perturbations: no nonlinearity makes such a difference
+_ROUGH = 0.1  # of a derivative: known no better, there is none
 _ROUNDING = 1e-15  # what no difference of numbers near 1 can be better than
 
 
@@ -86,6 +87,8 @@ def tangent(box, dt, near=None):
     if not np.isfinite(gap(i)):
         reasons = [each for each in known.values() if isinstance(each, Lost)]
         raise reasons[0]
+    if near is None and gap(i) > _ROUGH * np.sqrt(np.mean(product(i) ** 2)):
+        raise Lost("it does not answer small perturbations in proportion: it is not smooth (it rounds, or counts)")
     if near is None and _is_deaf(product, i, v):
         raise Lost("it leaves small perturbations as they are, and not larger ones: tighten the tolerances inside it")
     return Tangent(box, dt, float(_DELTAS[i]), max(gap(i), _ROUNDING))

@@ -7,7 +7,7 @@ import numpy as np
 from primer.schemes.jacobian import DENSE, rates
 from primer.schemes.limit import NEUTRAL, factor, largest_step
 from primer.schemes.marching import grid_of
-from primer.study.companions import MOST, march
+from primer.study.companions import BELOW, MOST, a_few, alive, finer, march, on_grid, short_waves
 from primer.study.kinds import Diagnosis, Kind
 from primer.study.waves import of_waves
 from primer.study.where import frozen
@@ -18,6 +18,9 @@ _SOONER = 0.9  # and one that comes this much sooner on a finer grid is of the e
 _DENSE = 300  # unknowns up to which eigenvalues are looked at for each of a few states
 _FINER, _FLAT, _FINEST = 1.25, 0.02, 10**5  # grids on which a bound of growth is looked for
 _APART = 50.0  # growth of a perturbation over the run that is more than a front's becoming steeper
+_AMPLIFIED = 10.0  # and that is too much where only the scheme lets it grow
+_LITTLE = 1.0  # growth times the time of loss: too little for a loss that grew from small perturbations
+_FILLED = 0.01  # a share of short waves in a state that is seen in it
 _RISES = 0.2  # the power of n from which on growth is not bounded
 
 
@@ -25,7 +28,7 @@ def tried(problem, n, dt, t_end, seed, dtype, time):
     """The :class:`Diagnosis` of a run whose data are not uniform."""
     main = march(problem, n, dt, t_end, seed, dtype, time)
     lost = math.isfinite(main.t_lost)
-    places = frozen(problem, n, _alive(main))
+    places = frozen(problem, n, *alive(main))
     growths, ns, own, bad, limit, length, amplification = _linear(problem, n, dt, main, time)
     rises = _rise(growths, ns)
     size = f"{', '.join(f'{g:.3g}' for g in growths)} on n = {', '.join(map(str, ns))}"
@@ -34,8 +37,9 @@ def tried(problem, n, dt, t_end, seed, dtype, time):
         "dt": dt,
         "t_end": t_end,
         "t": main.t_lost,
-        "where": places.text,
+        "where": places.text + _since(main, places),
         "size": size,
+        "growths": growths,
         "limit": limit,
         "bad": bad,
     }
@@ -51,22 +55,20 @@ def tried(problem, n, dt, t_end, seed, dtype, time):
     )  # fmt: skip
 
 
-def _alive(main):
-    """States before the blow-up has a hand in them."""
-    good = main.t <= 0.8 * main.t_lost if math.isfinite(main.t_lost) else main.t >= 0
-    good[0] = True
-    return main.states[good]
+def _since(main, places):
+    """From when on, where it is not so from the beginning."""
+    ill = places.ill.any(axis=1)
+    return f", from about t = {alive(main)[1][np.argmax(ill)]:.2g} on" if ill.any() and not ill[0] else ""
 
 
 def _linear(problem, n, dt, main, time):
     """(growths, grids, own growth, scheme's growth, limit, wavelength, amplification) about a few states visited."""
-    states = _alive(main)
-    chosen = states[np.unique([0, len(states) // 2, len(states) - 1])]
-    lam = np.concatenate([rates(problem, n, state) for state in chosen])
+    chosen = a_few(main)
+    lam = np.concatenate([rates(problem, n, state, t) for state, t in chosen])
     mine = lam.real > NEUTRAL * max(np.abs(lam).max(), 1e-300)
     by_step = np.log(np.maximum(np.abs(factor(time, dt * lam)), 1e-300)) / dt
     own, bad = float(by_step[mine].max(initial=-np.inf)), float(by_step[~mine].max(initial=0.0))
-    limit = min(largest_step(rates(problem, n, state), time) for state in chosen)
+    limit = min(largest_step(rates(problem, n, state, t), time) for state, t in chosen)
     fields = len(problem.fields)
     grids = [n, 2 * n, 4 * n]
     if 4 * n * fields > _DENSE:  # the same law on coarser grids, where eigenvalues are quick
@@ -74,24 +76,10 @@ def _linear(problem, n, dt, main, time):
         grids = [max(top // 4, 8), max(top // 2, 16), top]
     found = []
     for m in grids:
-        growth = [rates(problem, m, _on(state, m)).real.max() for state in chosen]
+        growth = [rates(problem, m, on_grid(state, m), t).real.max() for state, t in chosen]
         found.append(float(max(growth)))
     own = own if mine.any() else float(by_step.max())
     return tuple(found), grids, own, bad, limit, *of_waves(problem, n, dt, chosen, time)
-
-
-def _on(state, m):
-    """A state on another grid, by its trigonometric interpolant."""
-    n = state.shape[1]
-    if n == m:
-        return state
-    waves = np.fft.fft(state, axis=1) / n
-    new = np.zeros((len(state), m), dtype=complex)
-    k = (min(n, m) - 1) // 2
-    new[:, : k + 1] = waves[:, : k + 1]
-    new[:, m - k :] = waves[:, n - k :]
-    found = np.fft.ifft(new * m, axis=1)
-    return found if np.iscomplexobj(state) else found.real
 
 
 def _rise(growths, ns):
@@ -109,7 +97,7 @@ def _of_a_blow_up(problem, main, places, rises, bad, own, about, seed, dtype, ti
     limit = about["limit"]
     small = dt / 4
     if bad > 0 and 0 < limit < dt:
-        small = min(small, 0.8 * limit)
+        small = min(small, BELOW * limit)
     if n * until / small > MOST:
         small = max(n * until / MOST, dt / 4)
     gentle = march(problem, n, small, until, seed, dtype, time)
@@ -125,9 +113,7 @@ def _of_a_blow_up(problem, main, places, rises, bad, own, about, seed, dtype, ti
             cure += f"; with {time.name} no step amplifies nothing, only another scheme would"
             best = 0.0
         return Kind.SCHEME, f"The step dt = {dt:g} is too large for n = {n}: {text}, and {cure}.", best
-    fine = march(problem, 2 * n, small, _PUT_OFF * gentle.t_lost, seed, dtype, time) if (
-        2 * n * _PUT_OFF * gentle.t_lost / small <= MOST
-    ) else None  # fmt: skip
+    fine = finer(problem, main, 2, small, _PUT_OFF * gentle.t_lost, seed, dtype, time)
     sooner = fine is not None and fine.t_lost < _SOONER * gentle.t_lost
     if places.ill.any() and (rises or sooner):
         return Kind.ILL_POSED, (
@@ -141,20 +127,35 @@ def _of_a_blow_up(problem, main, places, rises, bad, own, about, seed, dtype, ti
         ), math.nan  # fmt: skip
     if rises:
         return Kind.UNSTABLE, f"{_looks_ill_posed(problem, main, about)}; {text}, and no smaller dt helps.", math.nan
+    grown = max(about["growths"]) * main.t_lost
+    if fine is not None and abs(fine.t_lost / gentle.t_lost - 1) < 0.25 and grown < _LITTLE:
+        return Kind.UNDECIDED, (
+            f"{text[0].upper()}{text[1:]}, on 2 n points and with a smaller dt near t = {fine.t_lost:.3g} too, though "
+            f"on the states before nothing grows that would matter ({about['size']}): a front that no such grid "
+            "resolves, or a solution that ends; a much finer grid, or differences against the wind, would tell."
+        ), math.nan  # fmt: skip
     if fine is not None and abs(fine.t_lost / gentle.t_lost - 1) < 0.25:
         return Kind.UNSTABLE, (
             f"The equations are well posed at each point, and growth is bounded: {about['size']}; {text}, on 2 n "
             f"points and with a smaller dt near t = {fine.t_lost:.3g} too: the solution's own."
         ), math.nan  # fmt: skip
-    other = "lives longer" if fine is not None else "was not tried"
+    other = "would take too long"
+    if fine is not None:
+        other = f"is lost near t = {fine.t_lost:.3g}" if math.isfinite(fine.t_lost) else "lives to the end"
+        other += ": the solution is not resolved"
     return Kind.UNDECIDED, (
-        f"{text[0].upper()}{text[1:]}, whatever the step; a grid of {2 * n} points (h = {grid.h / 2:.3g}) {other}: the "
-        "solution is not resolved."
+        f"{text[0].upper()}{text[1:]}, whatever the step; a grid of {2 * n} points (h = {grid.h / 2:.3g}) {other}."
     ), math.nan  # fmt: skip
 
 
 def _of_a_life(problem, main, places, rises, growths, about, seed, dtype, time):
     """(kind, reason) of a run that reaches its end."""
+    if places.ill.any() and rises and (short := short_waves(main)) > _FILLED:
+        return Kind.ILL_POSED, (
+            f"The equations are ill posed {about['where']}, growth rises with the grid, {about['size']}, and though "
+            f"nothing is lost by t = {about['t_end']:g} the run has filled with waves of two to four spacings, "
+            f"{100 * short:.2g} % of all: what it shows depends on its grid, whatever the step."
+        )
     if places.ill.any() and (rises or _fails_finer(problem, main, about, seed, dtype, time)):
         if (not places.ill[-1].any() and places.ill[0].any()) or (places.ill.any() and not places.ill[[0, -1]].any()):
             first = main.t[int(np.argmax(places.ill.any(axis=1)))]
@@ -175,21 +176,25 @@ def _of_a_life(problem, main, places, rises, growths, about, seed, dtype, time):
         return Kind.UNSTABLE, f"{_looks_ill_posed(problem, main, about)}; this run reaches its end."
     separates = _separation(problem, main, about["t_end"], seed, dtype, time)
     limit, bad = about["limit"], about["bad"]
-    if separates > _APART and bad > 2 * max(growths[-1], 0.0):
+    if separates > _AMPLIFIED and bad > 2 * max(growths[-1], 0.0) and bad * about["t_end"] > math.log(_APART):
         cure = f"dt <= {limit:.3g} would do" if 0 < limit < about["dt"] else "another scheme would do"
         return Kind.SCHEME, (
             f"The step dt = {about['dt']:g} is too large for n = {about['n']}: what does not grow of itself is "
-            f"amplified like e^({bad:.3g} t), {separates:.2g} times by the end, though nothing is lost by then; {cure}."
+            f"amplified like e^({bad:.3g} t), {_times(separates)} by the end, though nothing is lost by then; {cure}."
         )
     if separates > _APART:
         return Kind.UNSTABLE, (
             f"Nothing is ill posed and growth is bounded, {about['size']}, but perturbations have grown "
-            f"{separates:.2g} times by t = {about['t_end']:g}: the model's own."
+            f"{_times(separates)} by t = {about['t_end']:g}: the model's own."
         )
     return Kind.CONVERGES, (
         f"Nothing is ill posed, a perturbation is {separates:.2g} times as large at the end, and the run reaches it "
         f"(fastest growth {about['size']})."
     )
+
+
+def _times(factor):
+    return f"{factor:.2g} times" if math.isfinite(factor) else "beyond the fields themselves"
 
 
 def _looks_ill_posed(problem, main, about):
@@ -218,10 +223,8 @@ def _largest(problem, n, state):
 
 def _fails_finer(problem, main, about, seed, dtype, time):
     """Whether four times as many points, with steps as much smaller as a second derivative needs, are lost."""
-    n, dt = 4 * main.n, main.dt / 16
-    if n * about["t_end"] / dt > MOST:
-        return False
-    return math.isfinite(march(problem, n, dt, about["t_end"], seed, dtype, time).t_lost)
+    found = finer(problem, main, 4, main.dt / 16, about["t_end"], seed, dtype, time)
+    return found is not None and math.isfinite(found.t_lost)
 
 
 def _lives_without(problem, main, dtype, time):

@@ -14,7 +14,7 @@ _PLACES = 64  # points at which the equations are frozen
 
 
 def of_waves(problem, n, dt, states, time):
-    """(wavelength, amplification) about states (s, fields, n): of the fastest mode with this step, and of each wave.
+    """(wavelength, amplification) about [(state, time)]: of the fastest mode with this step, and of each wave.
 
     The fastest mode is that of the Jacobian, and its wave the strongest one in it, its mean apart; on more than 800
     unknowns it is the fastest of the frozen waves. The amplification, (n//2 + 1,) numbers for k = 0, 1, ... waves in
@@ -24,15 +24,14 @@ def of_waves(problem, n, dt, states, time):
     if not hasattr(problem, "evolution"):
         return math.nan, ()
     places = np.unique(np.linspace(0, n - 1, _PLACES).astype(int))
-    largest = np.max([_factors(frozen_rates(problem, n, each, places), dt, time).max(axis=(1, 2)) for each in states],
-                     axis=0)  # fmt: skip
-    amplification = folded(largest)
+    frozen = (frozen_rates(problem, n, state, places, t) for state, t in states)
+    amplification = folded(np.max([_factors(lam, dt, time).max(axis=(1, 2)) for lam in frozen], axis=0))
     if len(problem.fields) * n > DENSE:
         k = int(np.argmax(amplification))
     else:
         k, best = 0, -math.inf
-        for state in states:
-            lam, vectors = modes(problem, n, state)
+        for state, t in states:
+            lam, vectors = modes(problem, n, state, t)
             factors = _factors(lam, dt, time)
             fastest = int(np.argmax(factors))
             if factors[fastest] > best:

@@ -33,20 +33,22 @@ class Frozen:
     text: str
 
 
-def frozen(problem, n, states):
+def frozen(problem, n, states, times=None):
     """The :class:`Frozen` verdict about states, (s, fields, n): does growth rise with the wavenumber without bound?
 
-    In double precision, from three short waves; of a problem that is no text it is not known, and said to be nowhere.
+    ``times`` are those of the states, where the equations depend on time. In double precision, from three short waves;
+    of a problem that is no text it is not known, and said to be nowhere.
     """
     x = grid_of(problem, n).x
     states = np.asarray(states)
     if not hasattr(problem, "evolution"):
         return Frozen(x, np.zeros((len(states), n), dtype=bool), "")
-    ill = np.array([_at(problem, x, state) for state in states])
+    times = np.zeros(len(states)) if times is None else times
+    ill = np.array([_at(problem, x, state, t) for state, t in zip(states, times, strict=True)])
     return Frozen(x, ill, _words(problem, x, ill, states))
 
 
-def _at(problem, x, state):
+def _at(problem, x, state, t):
     """(n,) where one state is ill posed."""
     xi = 2 * np.pi / (grid_of(problem, x.size).h * x.size) * _SHORT
     found = np.zeros(x.size, dtype=bool)
@@ -56,10 +58,10 @@ def _at(problem, x, state):
 
     with np.errstate(all="ignore"):
         given = known(problem.evolution, x, problem.parameters)
-        about = linearised(problem.evolution, problem.parameters, tuple(state), derivative, given)
+        about = linearised(problem.evolution, problem.parameters, tuple(state), derivative, given, t)
         for waves in (xi, -xi):
             symbol = about.symbol(partial(_multiplier, waves))
-            symbol = np.broadcast_to(symbol, (xi.size, x.size, *symbol.shape[2:]))
+            symbol = np.broadcast_to(symbol, (xi.size, x.size, *symbol.shape[-2:]))
             good = np.isfinite(symbol).all(axis=(0, 2, 3))
             lam = np.linalg.eigvals(np.where(good[:, None, None], symbol, 0))
             size = np.abs(lam).max(axis=2)

@@ -20,7 +20,7 @@ NAMES = {"Coulomb": "Coulomb", "IncompressibleMuI": r"$\mu(I)$", "CSSM": "CSSM",
 #: What a map can show, with a colour, a hatch and a text each.
 KINDS = (
     ("damped", "#DCEAF4", ""),
-    ("unstable, bounded", "#8FBDDD", ".."),
+    ("grows, bounded", "#8FBDDD", ".."),
     (r"ill posed, $|\xi|$", "#F3B48B", "///"),
     (r"ill posed, $|\xi|^2$", "#D55E00", "xx"),
 )

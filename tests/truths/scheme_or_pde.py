@@ -38,3 +38,25 @@ def truth_04_3(seed):
     if gentle.stop is Stop.REACHED_END and gentle.t_stop > 1.5 * run.t_stop:
         return "scheme"
     return "ill-posed" if a < 1 else "transient"
+
+
+def truth_04_5(seed):
+    """From the matrix of one step on two grids, column by column: of the step asked about, and of a tiny one."""
+    from primer.scenes.whose_fault import PROGRAMS
+
+    program = PROGRAMS[int(re.search(r"PROGRAMS\[(\d)\]", exercises.ask_04_5(seed))[1])]
+
+    def growth(n, dt):
+        base = program.state(n)
+        columns = [
+            program.step(base + 1e-6 * e.reshape(base.shape), dt)
+            - program.step(base - 1e-6 * e.reshape(base.shape), dt)
+            for e in np.eye(base.size)
+        ]
+        factors = np.abs(np.linalg.eigvals(np.array([c.ravel() for c in columns]).T / 2e-6))
+        return np.log(factors.max()) / dt
+
+    asked, gentle = growth(256, program.dt), [growth(n, 1e-6) for n in (64, 128)]
+    if gentle[0] > 1e-3 and gentle[1] > 1e-3:
+        return "ill-posed" if gentle[1] > 1.5 * gentle[0] else "unstable"
+    return "scheme" if asked > 1e-3 else "stable"

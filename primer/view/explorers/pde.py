@@ -120,6 +120,15 @@ class PDEExplorer(Explorer):
         "initial=h = 1 + 0.01*cos(x); k = 1 - 0.01*cos(x); u = 0.05; w = -0.05,t_end=10,n=32",
         "two layers, fast shear": f"pde={_LAYERS},at=h=1 k=1 u=0.4 w=-0.4 r=0.9,uniform=yes,"
         "initial=h = 1 + 0.01*cos(x); k = 1 - 0.01*cos(x); u = 0.4; w = -0.4,t_end=10,n=32",
+        # The four of primer.scenes.whose_fault; the last one is the equation that the program really solves.
+        "whose fault: a mixture": "pde=u_t = (u^3 - u - 0.01*u_xx)_xx,at=u=0.1,uniform=yes,"
+        "initial=u = 0.1 + 0.01*cos(3*x),t_end=0.2,n=32",
+        "whose fault: two layers": "pde=h_t = -(h*(1 - h)*s)_x; s_t = -(s^2*(1 - 2*h)/2 + h)_x,at=h=0.5 s=1.5,"
+        "uniform=yes,initial=h = 0.5 + 0.01*cos(x); s = 1.5,t_end=8,n=32",
+        "whose fault: a flame": "pde=u_t = -u*u_x - u_xx - u_xxxx,at=u=0,uniform=yes,"
+        "initial=u = cos(x/16)*(1 + sin(x/16)),period=32*pi,t_end=60,n=96",
+        "whose fault: the stranger": "pde=u_t = -u_x - 0.01*u_xx,at=u=1,uniform=yes,initial=u = 1 + 0.01*cos(x),"
+        "t_end=8,n=32",
         "Perona-Malik": "pde=u_t = (u_x/(1 + u_x^2))_x,at=u_x=2 u_xx=0,initial=u = 2*sin(x),t_end=1,n=32",
         "Schrödinger": "pde=i*a_t = -a_xx,initial=a = exp(cos(x)),t_end=1,n=32",
         "ill posed across": "pde=u_t = u_xx - u_yy",

@@ -115,6 +115,6 @@ class RheologyExplorer(Explorer):
         "CSSM, expanding": "law=CSSM",
         "CSSM, shrinking": "law=CSSM,ratio=0.5",
         "CIDR": "law=CIDR,ratio=0.5",
-        "CIDR, unstable but bounded": "law=CIDR",
+        "CIDR, growth, but bounded": "law=CIDR",
         "no such flow": "law=CIDR,ratio=0.95",
     }
