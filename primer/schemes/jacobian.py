@@ -26,7 +26,8 @@ def rates(problem: Any, n: int, state: Any = None, t: float = 0.0, space: Any = 
 
     Parameters
     ----------
-    problem, n    a ``PDE``, a ``Toy`` or any other problem, and its grid
+    problem, n    a ``PDE``, a ``Toy`` or any other problem, and its grid; one that has no text, but a ``symbol`` of
+                  the first derivative's multipliers, is asked for that about its steady state
     state         the fields, numbers or arrays of shape (n,); left out, the initial data
     t             the time, where the equations depend on it
     space         the derivatives
@@ -39,6 +40,8 @@ def rates(problem: Any, n: int, state: Any = None, t: float = 0.0, space: Any = 
     def derivative(f, m):
         return space[m](f, h)
 
+    if hasattr(problem, "symbol") and _is_base(problem, x, state):
+        return np.linalg.eigvals(problem.symbol(_waves(n, derivative, np.arange(n))(1))).ravel()
     if not hasattr(problem, "evolution"):
         return np.linalg.eigvals(_quotients(problem, x, state, derivative, t))
     about = _about(problem, x, state, derivative, t)
@@ -88,6 +91,11 @@ def _about(problem, x, state, derivative, t):
     if not all(np.isfinite(c).all() for c in _slopes(about)):
         raise ValueError(f"u must be a state about which the equations can be linearised, got {shown(state)}")
     return about
+
+
+def _is_base(problem, x, state):
+    """Whether the state is the one about which the problem itself knows its waves."""
+    return np.array_equal(state, np.array(problem.steady(x)))
 
 
 def _slopes(about):

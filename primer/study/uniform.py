@@ -17,7 +17,8 @@ _SPREAD = 1.26  # a blow-up comes this factor sooner or later than e-foldings sa
 
 def uniform(problem, n):
     """Whether the initial data are uniform, and steady, and the equations the same everywhere at all times."""
-    if not hasattr(problem, "evolution") or not getattr(problem, "autonomous", True):
+    known = hasattr(problem, "evolution") or hasattr(problem, "symbol")
+    if not known or not getattr(problem, "autonomous", True):
         return False
     grid = grid_of(problem, n)
     state = np.array(fields_of(problem, "initial", grid.x))
