@@ -52,7 +52,8 @@ class Limit:
 
 def rates_of(modes, spectra, s):
     """The :class:`Limit` of given modes, from what steps of s, 2 s and 4 s do to them."""
-    factors = [modes.under(spectra.matrices(k * s)) for k in (1, 2, 4)]
+    # Of its own step each factor is known well, also where modes are nearly parallel and what others do is not.
+    factors = [modes.factor if k * s == modes.dt else modes.under(spectra.matrices(k * s)) for k in (1, 2, 4)]
     g1, g2, g4 = (_logarithm(factor) / (k * s) for k, factor in zip((1, 2, 4), factors, strict=True))
     turns = np.abs(_logarithm(factors[0])) + np.abs(np.angle(factors[0]))
     louder = spectra.tangent(s).error / spectra.tangent(modes.dt).error / s
