@@ -3,10 +3,12 @@
 from primer.granular.ansatz import Ansatz
 from primer.granular.compaction import Compaction
 from primer.granular.criteria import conditions, critical_state, incompressible_criterion, neutral_inertial_numbers
+from primer.granular.flow_rule import NoPressure
 from primer.granular.friction import Friction, MuI
 from primer.granular.linearisation import coefficients, linearise
 from primer.granular.materials import DISCS_2011, EXAMPLE_COMPACTION, GLASS_BEADS, GLASS_BEADS_2015, GLASS_BEADS_2017
 from primer.granular.posedness import growth_limit, largest_growth, verdict
+from primer.granular.pressure import Stress, pressure, stress
 from primer.granular.rheology import CIDR, CSSM, Coulomb, IncompressibleMuI
 from primer.granular.state import BaseState, admit
 
@@ -25,6 +27,8 @@ __all__ = [
     "Friction",
     "IncompressibleMuI",
     "MuI",
+    "NoPressure",
+    "Stress",
     "admit",
     "coefficients",
     "conditions",
@@ -34,5 +38,7 @@ __all__ = [
     "largest_growth",
     "linearise",
     "neutral_inertial_numbers",
+    "pressure",
+    "stress",
     "verdict",
 ]
