@@ -206,6 +206,15 @@ def test_an_implicit_step_hides_nothing():
         assert found.exponent == pytest.approx(2, abs=0.02)
 
 
+@pytest.mark.parametrize("dt", [0.1, 0.6385, 0.8845, 1.2254, 1.4422, 7.06])
+@pytest.mark.parametrize("damping", [0.0, 5e-4, 5e-2])
+def test_growth_is_known_as_well_as_it_is_said_to_be(dt, damping):
+    """Three large steps of an implicit method may look as if they converged, with a power of chance."""
+    found = examine(implicit(lambda k: 1.06 - damping * k**2), flat(0.0), (16, 32, 64), dt)
+    assert found.kind in ("unstable", "scheme")
+    assert (np.abs(found.growth - 1.06) <= found.error + 1e-9).all()
+
+
 @pytest.mark.slow
 def test_a_frozen_verdict_is_not_asked_for():
     """The equation is well posed, and so are its central differences; a Galerkin matrix of it is not."""
