@@ -146,12 +146,73 @@ def test_the_scheme_and_then_the_model():
     assert "what is left then is the model's own growth, 11.8" in found.reason
 
 
+def yee(z, dt):
+    """E and H on grids half a step apart: stable up to dt = h, where the shortest waves are multiplied by -1."""
+    e, h = z
+    h = h + dt * (np.roll(e, -1) - e) * e.size / L
+    return np.array([e + dt * (h - np.roll(h, 1)) * e.size / L, h])
+
+
+def leapfrog(f):
+    """The fields and those a step before."""
+    return lambda z, dt: np.array([z[1] + 2 * dt * f(z[0]), z[0]])
+
+
+def lax_wendroff(u, dt):
+    return u - dt * d1(u) + dt**2 / 2 * d2(u)
+
+
+@pytest.mark.parametrize(
+    ("step", "base", "limit"),
+    [
+        (yee, QUIET, L / 128),
+        (leapfrog(lambda u: -d1(u)), flat(1.0, 1.0), L / 128),
+        (lax_wendroff, flat(1.0), L / 128),
+    ],
+)
+def test_waves_that_do_not_grow_up_to_a_limit(step, base, limit):
+    """The modes of a step beyond it are others than those of small steps."""
+    assert examine(step, base, GRIDS, 0.9 * limit).kind == "stable"
+    for times in (1.05, 1.5):
+        found = examine(step, base, GRIDS, times * limit)
+        assert found.kind == "scheme"
+        assert 0.97 * limit <= found.stable_dt <= 1.001 * limit
+
+
+def test_leapfrog_of_the_heat_equation_grows_whatever_the_step():
+    """Its second mode grows at the rate at which the first decays: no smaller dt helps, it is the program."""
+    found = examine(leapfrog(d2), flat(1.0, 1.0), GRIDS, 1e-4)
+    assert found.kind == "ill-posed"
+    np.testing.assert_allclose(found.growth, [4 * (n / L) ** 2 for n in GRIDS], rtol=1e-2)
+
+
+def test_waves_in_the_plane_with_one_sign_wrong():
+    """Growth sqrt(l^2 - k^2), largest where k is 0 or blind; beside them are triple roots 0 with one mode only."""
+
+    def f(z):
+        x, y = ((np.roll(z, -1, a) - np.roll(z, 1, a)) * z.shape[-1] / (2 * L) for a in (-1, -2))
+        return np.array([-x[1] - y[2], -x[0], y[0]])
+
+    found = examine(rk4(f), lambda n: np.zeros((3, n, n)), (8, 16, 32), 1e-3)
+    assert found.kind == "ill-posed"
+    np.testing.assert_allclose(found.growth, [n / L for n in found.n], rtol=1e-6)
+
+
 def test_an_implicit_step_hides_nothing():
     """Backward Euler of the backward heat equation with so large a step damps what should grow fastest."""
     for dt in (10.0, 0.1, 1e-5):
         found = examine(implicit(lambda k: k**2), flat(0.0), GRIDS, dt)
         assert found.kind == "ill-posed"
         assert found.exponent == pytest.approx(2, abs=0.02)
+
+
+@pytest.mark.parametrize("dt", [0.1, 0.6385, 0.8845, 1.2254, 1.4422, 7.06])
+@pytest.mark.parametrize("damping", [0.0, 5e-4, 5e-2])
+def test_growth_is_known_as_well_as_it_is_said_to_be(dt, damping):
+    """Three large steps of an implicit method may look as if they converged, with a power of chance."""
+    found = examine(implicit(lambda k: 1.06 - damping * k**2), flat(0.0), (16, 32, 64), dt)
+    assert found.kind in ("unstable", "scheme")
+    assert (np.abs(found.growth - 1.06) <= found.error + 1e-9).all()
 
 
 @pytest.mark.slow
@@ -351,8 +412,8 @@ def test_a_step_that_fails_where_it_is_perturbed():
         (lambda u, dt: u + 1e-4 * d2(u), "step does the same whatever dt is"),
         (lambda u, dt: u - 1e-4 * d2(u), "step does the same whatever dt is"),
         (lambda u, dt: d2(u), "step does the same whatever dt is"),
-        (lambda u, dt: dt * d2(u), "as dt -> 0 step does not tend to doing nothing"),
-        (lambda u, dt: np.floor(u + dt * d2(u)), "nor round them"),
+        (lambda u, dt: dt * d2(u), "as dt -> 0 what step returns vanishes"),
+        (lambda u, dt: np.floor(u + dt * d2(u)), "it is not smooth (it rounds, or counts)"),
         (lambda u, dt: u, "step gives back what it is given"),
         (
             lambda u, dt: u + dt * d2(u) if np.ptp(u, axis=1).max() < 1e-12 else u * np.nan,

@@ -93,9 +93,10 @@ def _growing(seen, waves):
             waves, power, coefficient,
         )  # fmt: skip
     if power < _BOUNDED or (not follows and power < 0.5):
+        stays = "whatever the grid" if power < _BOUNDED else "which hardly get shorter on finer grids"
         return Judgement(
             "unstable",
-            f"Unstable but bounded: the fastest growth is {law}, of {length}, whatever the grid: the model's own"
+            f"Unstable but bounded: the fastest growth is {law}, of {length}, {stays}: the model's own"
             f"{_moving(last)}.",
             waves, power, last.growth * last.wavelength**power if last.wavelength < math.inf else last.growth,
         )  # fmt: skip

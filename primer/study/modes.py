@@ -159,13 +159,13 @@ class Spectra:
         elif self._basis is not None:
             vector = self._basis @ vector
         v = vector.reshape(self.box.shape)
-        v = v.real if np.abs(v.real).max() >= np.abs(v.imag).max() else v.imag
         v = v * (LARGER / np.abs(v).max())
+        parts = [part for part in (v.real, v.imag) if np.abs(part).max() > 1e-6 * LARGER]  # a step may swap the two
         try:
-            after = (self.box.step(v, modes.dt) - self.box.step(-v, modes.dt)) / 2
+            after = [(self.box.step(part, modes.dt) - self.box.step(-part, modes.dt)) / 2 for part in parts]
         except Lost:
             return np.inf
-        return float(np.linalg.norm(after) / np.linalg.norm(v))
+        return float(np.linalg.norm(after) / np.linalg.norm(parts))
 
     def wavelength(self, modes, place):
         """That of one mode, as a fraction of the domain: of the strongest wave in it; infinite if that is uniform."""

@@ -24,7 +24,7 @@ def remedied(judgement, seen, dt):
     if step > 0:
         text += f"; dt = {step:.3g} would do on all these grids"
     else:
-        halved = amplified(worst.spectra, dt / 2, worst.limit.dt)
+        halved = amplified(worst.spectra, dt / 2, worst.limit.dt, worst.cap)
         by = f", with half the step {halved[0] / growth:.2f} times as fast" if halved else ""
         text += f"; no step would do (they always grow{by}): another scheme would"
     rest = [each for each in seen if each.grows]
@@ -38,7 +38,7 @@ def _cured(seen, dt):
     good, least = dt, seen.limit.dt
 
     def bad(step):
-        found = amplified(seen.spectra, step, min(least, step / 4), seen.growth)
+        found = amplified(seen.spectra, step, min(least, step / 4), seen.cap, seen.growth)
         return found is not None and found[2] > 1
 
     for _ in range(_CURES):

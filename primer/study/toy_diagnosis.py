@@ -24,6 +24,7 @@ from primer.study.kinds import Diagnosis, Kind
 from primer.study.real_mode import nothing_grows
 from primer.study.spectrum import leader, rate
 from primer.study.stability import OVERSHOOT, amplification_over_modes, stable_dt
+from primer.study.toy_reason import said_of
 from primer.types import DTypeLike
 
 # A blow-up measured within [earliest, latest]: the width, a factor 1.45, is twice the spread of measured times over
@@ -101,7 +102,7 @@ def _said(toy, n, dt, t_end, seed, found, gentle, t_dip, lead, small=None, seen=
     interval = (_EARLIEST * found.t_blow_up, _LATEST * found.t_blow_up) if blows_up else None
     growth = float(rate(lead[0], dt))
     where = _ill_where(toy) if toy.eps > 0 and (toy.a < 1 or t_dip is not None) else ""
-    reason = _reason(kind, toy, n, dt, t_end, found, gentle, t_dip, growth, where or "where u < 0", small)
+    reason = said_of(kind, toy, n, dt, t_end, found, gentle, t_dip, growth, where or "where u < 0", small)
     if small is not None:
         how = "cheaper than to foretell it" if seen >= t_end else f"to t = {seen:g}: at rest there, and nothing grows"
         reason = f"{reason[:-1]} (as running it shows, which is {how})."
@@ -204,46 +205,3 @@ def _with_a_small_step(toy, n, dt, t_end, seed, epsilon, digits=None):
     if dt <= small:
         return None
     return _foreseen(toy, n, small, t_end, seed, epsilon, digits, locks=False)
-
-
-def _reason(kind, toy, n, dt, t_end, found, gentle, t_dip, growth, where, small=None):
-    source = "the seed" if found.seeded else "the smooth solution itself" if found.smooth else "round-off"
-    digits = 3 if small is None else 2  # of a run: the last bit decides the third
-    when = f"what grows from {source} is as large as u near t = {found.t_blow_up:.{digits}g}"
-    if kind is Kind.SCHEME:
-        lives = "a smaller one lives to the end" if small is None else f"dt = {small:.2g} lives twice as long or longer"
-        if gentle.t_blow_up <= t_end:
-            lives = f"a smaller one lives to about t = {gentle.t_blow_up:.3g}"
-            lives += (
-                ", and is lost to the equations, ill posed where u < 0" if gentle.t_first_negative is not None else ""
-            )
-        return f"The step dt = {dt:g} is too large for n = {n}, and {when}; {lives}."
-    if kind is Kind.ILL_POSED:
-        return (
-            f"{where[0].upper()}{where[1:]}{',' * (',' in where)} the equations are ill posed, n = {n} points see it, "
-            f"and {when}; no smaller dt helps."
-        )
-    if kind is Kind.HIDDEN:
-        if growth <= 0:
-            return f"The equations are ill posed {where}, but on n = {n} points nothing grows on the steady state."
-        if small is not None:
-            return (
-                f"The equations are ill posed {where}, but on n = {n} points perturbations grow only by "
-                f"e^({growth:.3g} t): nothing comes of it by the end, t = {t_end:g}."
-            )
-        if found.t_blow_up < math.inf:
-            return (
-                f"The equations are ill posed {where}, but on n = {n} points perturbations grow only by "
-                f"e^({growth:.3g} t): {when}, after the end."
-            )
-        return (
-            f"The equations are ill posed {where}, but on n = {n} points perturbations grow only by "
-            f"e^({growth:.3g} t), so slowly that each step of theirs is lost in the last bit."
-        )
-    if kind is Kind.TRANSIENT:
-        first = f"The steady state is well posed, but u dips below zero at t = {t_dip:.3g}"
-        if found.t_blow_up <= t_end:
-            return f"{first}, n = {n} points see that it is ill posed there, and {when}."
-        return f"{first}; it recovers before anything on n = {n} points has grown enough."
-    why = "the equations have no second derivative" if toy.eps == 0 else "u stays positive"
-    return f"The equations are well posed, as {why}, and nothing on n = {n} points grows to matter."

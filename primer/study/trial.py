@@ -113,12 +113,15 @@ def _of_a_blow_up(problem, main, places, rises, bad, own, about, seed, dtype, ti
             cure += f"; with {time.name} no step amplifies nothing, only another scheme would"
             best = 0.0
         return Kind.SCHEME, f"The step dt = {dt:g} is too large for n = {n}: {text}, and {cure}.", best
+    helps = "no smaller dt helps"
+    if gentle.t_lost > 1.1 * main.t_lost:
+        helps = f"a smaller dt only puts it off, to t = {gentle.t_lost:.3g}"
     fine = finer(problem, main, 2, small, _PUT_OFF * gentle.t_lost, seed, dtype, time)
     sooner = fine is not None and fine.t_lost < _SOONER * gentle.t_lost
     if places.ill.any() and (rises or sooner):
         return Kind.ILL_POSED, (
             f"The equations are ill posed {about['where']}: growth rises with the grid, {about['size']}, {text}, and "
-            "no smaller dt helps."
+            f"{helps}."
         ), math.nan  # fmt: skip
     if places.ill.any() and not rises:
         return Kind.UNDECIDED, (
@@ -126,7 +129,7 @@ def _of_a_blow_up(problem, main, places, rises, bad, own, about, seed, dtype, ti
             f"{about['size']}; {text}, whatever the step."
         ), math.nan  # fmt: skip
     if rises:
-        return Kind.UNSTABLE, f"{_looks_ill_posed(problem, main, about)}; {text}, and no smaller dt helps.", math.nan
+        return Kind.UNSTABLE, f"{_looks_ill_posed(problem, main, about)}; {text}, and {helps}.", math.nan
     grown = max(about["growths"]) * main.t_lost
     if fine is not None and abs(fine.t_lost / gentle.t_lost - 1) < 0.25 and grown < _LITTLE:
         return Kind.UNDECIDED, (

@@ -52,7 +52,8 @@ class Limit:
 
 def rates_of(modes, spectra, s):
     """The :class:`Limit` of given modes, from what steps of s, 2 s and 4 s do to them."""
-    factors = [modes.under(spectra.matrices(k * s)) for k in (1, 2, 4)]
+    # Of its own step each factor is known well, also where modes are nearly parallel and what others do is not.
+    factors = [modes.factor if k * s == modes.dt else modes.under(spectra.matrices(k * s)) for k in (1, 2, 4)]
     g1, g2, g4 = (_logarithm(factor) / (k * s) for k, factor in zip((1, 2, 4), factors, strict=True))
     turns = np.abs(_logarithm(factors[0])) + np.abs(np.angle(factors[0]))
     louder = spectra.tangent(s).error / spectra.tangent(modes.dt).error / s
@@ -62,8 +63,9 @@ def rates_of(modes, spectra, s):
     with np.errstate(all="ignore"):
         ratio = np.nan_to_num(far / near, nan=0.0, posinf=0.0, neginf=0.0)
         power = np.clip(np.round(np.log2(np.maximum(ratio, 1.0))), 1, 8)
-    regular = (np.abs(ratio / 2**power - 1) < 0.15) & (turns < _POWER_LAW)
-    fair = (ratio > 1.5) & (turns < _POWER_LAW)
+    follows = (turns < _POWER_LAW) & (np.abs(g4) * 4 * s < _RESOLVED)
+    regular = (np.abs(ratio / 2**power - 1) < 0.15) & follows
+    fair = (ratio > 1.5) & follows
     rate = np.where(fair, g1 - near / (2**power - 1), g1)
     part = np.where(fair, np.abs(rate - g1) * np.where(regular, _SURE, _FAIR), np.maximum(np.abs(near), np.abs(far)))
     settled = np.abs(near) <= 2 * np.maximum(noise, loose)

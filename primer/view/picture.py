@@ -36,7 +36,9 @@ class Picture:
         """The picture of an answer, as bytes."""
         with styled(), rc_context({"axes.titley": 1.0}):  # titles that stay where they are
             self.drawn(answer, looks)
-            frame = tuple((*ax.get_xlim(), *ax.get_ylim(), ax.get_xlabel(), ax.get_ylabel()) for ax in self.axes)
+            frame = tuple(
+                (ax.axison, *ax.get_xlim(), *ax.get_ylim(), ax.get_xlabel(), ax.get_ylabel()) for ax in self.axes
+            )
             if frame != self._frame:
                 self._draw_frames()
                 self._frame = frame
@@ -73,6 +75,7 @@ def _empty(ax):
         artist.remove()
     for artist in [child for child in ax.get_children() if isinstance(child, Legend)]:
         artist.remove()
+    ax.set_axis_on()  # who wants none takes it off each time
     ax.set_prop_cycle(None)
     ax.relim()
     ax.autoscale(True)
