@@ -15,7 +15,7 @@ from primer.granular.linearisation import coefficients, reduced
 from primer.granular.pointwise import Frame, Local, local_stress
 from primer.granular.posedness import verdict
 from primer.granular.state import BaseState
-from primer.types import ArrayLike, Law
+from primer.types import ArrayLike, Derivative, Law
 
 
 @dataclass(frozen=True)
@@ -141,11 +141,11 @@ class PlaneWave:
         """Nothing is needed of x."""
         return 0.0
 
-    def local(self, slope, phi) -> Local:
+    def local(self, slope: ArrayLike, phi: ArrayLike) -> Local:
         """The stress at points where the fields' s-derivatives (velocities only) and phi are given."""
         return local_stress(self.law, self.state, self.frame, slope, phi)
 
-    def rhs(self, x, state, derivative, forcing=None):
+    def rhs(self, x: ArrayLike, state: Any, derivative: Derivative, forcing: Any = None) -> tuple[np.ndarray, ...]:
         """The time derivatives of the fields; nan at points without a pressure (and at their neighbours)."""
         state = np.asarray(state)
         rho = self.state.rho
