@@ -28,7 +28,8 @@ def system_of(law: Law, state: BaseState, n: int, height: float, creep: float) -
 class Layer:
     """The layer as a stiff system: y = (w along, w across, m, log stretch, mean rate of stretch).
 
-    m = phi stretch - phi*, so that the mass phi stretch of a slice has all its digits; its sum is conserved. ``creep`` is in 1/time, as ``gamma`` is.
+    m = phi stretch - phi*, so that the mass phi stretch of a slice has all its digits; its sum is conserved.
+    ``creep`` is in 1/time, as ``gamma`` is.
     """
 
     def __init__(self, law, state, grid, gamma, load, creep):
