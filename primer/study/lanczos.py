@@ -23,7 +23,7 @@ _BREAKDOWN = 1e-8  # of the form of a vector of length 1
 
 
 def grows(toy: Toy, n: int) -> bool:
-    """Whether some perturbation of the discrete steady state grows on n points: ``growth(toy, n) > 0``, sooner known."""
+    """Whether some perturbation of the discrete steady state grows on n points, ``growth(toy, n) > 0``."""
     if depth(toy, n) <= 0:
         return False
     if n <= _DENSE or toy.eps == 0:
@@ -31,7 +31,10 @@ def grows(toy: Toy, n: int) -> bool:
     shifts = [*_shifts(toy, n, 0.0), _SLOW, _packet(toy, n)]
     for shift in dict.fromkeys(complex(shift) for shift in shifts):
         for parity in Parity:
-            lam = _near(*form(toy, n, parity)[1:], shift)
+            _, s, diagonal, off = form(toy, n, parity)
+            lam = _near(s, diagonal, off, shift, np.ones(s.size))
+            if lam is None:  # the recurrence of another vector need not fail
+                lam = _near(s, diagonal, off, shift, np.arange(1.0, s.size + 1))
             if lam is None or (np.abs(lam.real) < _SURE * np.abs(lam)).any():
                 return growth(toy, n) > 0
             if (lam.real > 0).any():
@@ -39,7 +42,7 @@ def grows(toy: Toy, n: int) -> bool:
     return False
 
 
-def _near(s, diagonal, off, shift):
+def _near(s, diagonal, off, shift, start):
     """Eigenvalues near ``shift``; None if the recurrence failed, or found none."""
     from scipy.linalg.lapack import zgttrf, zgttrs
 
@@ -47,14 +50,15 @@ def _near(s, diagonal, off, shift):
     off = off.astype(complex)
     *factors, _ = zgttrf(off, diagonal + shift + s * s / shift, off)
     s_shift = s / shift
-    u, y = np.zeros(m, dtype=complex), np.full(m, m**-0.5, dtype=complex)
+    u, y = np.zeros(m, dtype=complex), start / np.linalg.norm(start) + 0j
     u_old, y_old = np.zeros_like(u), np.zeros_like(y)
     form_old, back = 1.0, 0.0
     T, last = np.zeros((size, size), dtype=complex), 0.0
     for i in range(size):
         own = y @ y - u @ u
-        if abs(own) < _BREAKDOWN:
-            return None
+        if abs(own) < _BREAKDOWN:  # what there is so far may do
+            T = T[:i, :i]
+            break
         new_y = zgttrs(*factors, s_shift * u - y)[0]
         new_u = s_shift * new_y - u / shift
         T[i, i] = alpha = (new_y @ y - new_u @ u) / own
