@@ -132,7 +132,7 @@ def test_a_slip_is_named(changes, hint):
 def test_every_slip_is_named_by_itself_and_no_two_alike():
     steps = {hint: (lambda *given, k=keywords: slipped(*given, **k)) for keywords, hint in SLIPS}
     steps["in v dt multiplies"] = dropped_in_part
-    steps["in u dt is missing"] = lambda *given: missing_dt(*given, "u")
+    steps["in u dt is missing"] = lambda *given: missing_dt(given, "u")
     for hint, step in steps.items():
         assert check_09_1(step).said.startswith(hint)
 

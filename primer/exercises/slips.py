@@ -89,9 +89,10 @@ SLIPS = (
 )  # fmt: skip
 
 
-def missing_dt(u, v, x, h, eps, dt, field):
+def missing_dt(given, field):
     """(u, v) where dt is forgotten in one of them, or in both (``field`` None)."""
-    return slipped(u, v, x, h, eps, dt, times=tuple(1.0 if field not in (None, f) else 1 / dt for f in ("u", "v")))
+    dt = given[-1]
+    return slipped(*given, times=tuple(1.0 if field not in (None, f) else 1 / dt for f in ("u", "v")))
 
 
 def dropped_in_part(u, v, x, h, eps, dt):

@@ -118,9 +118,9 @@ def _near(mine, right, old):
 
 def _slips(given) -> Iterator[tuple[tuple, str]]:
     """((u, v), hint) of each slip."""
-    yield missing_dt(*given, None), "dt is missing: the rate acts for a time dt."
-    yield missing_dt(*given, "u"), "in u dt is missing: the rate acts for a time dt."
-    yield missing_dt(*given, "v"), "in v dt is missing: the rate acts for a time dt."
+    yield missing_dt(given, None), "dt is missing: the rate acts for a time dt."
+    yield missing_dt(given, "u"), "in u dt is missing: the rate acts for a time dt."
+    yield missing_dt(given, "v"), "in v dt is missing: the rate acts for a time dt."
     yield dropped_in_part(*given), "in v dt multiplies the first term only: brackets round the whole of v_t."
     for keywords, hint in SLIPS:
         yield slipped(*given, **keywords), hint
