@@ -5,9 +5,10 @@ import math
 import numpy as np
 import pytest
 
-from primer import Stop, Toy, ftcs, stable_dt
+from primer import BackwardHeat, Stop, Toy, ftcs, stable_dt
 from primer.schemes.discrete import amplification
 from primer.schemes.grid import Grid
+from primer.schemes.jacobian import rates
 from primer.study.stability import OVERSHOOT, amplification_over_modes, frozen_dt
 
 
@@ -96,3 +97,13 @@ def test_at_the_edge_the_sawtooth_is_neutral_and_the_other_bound_holds():
         with pytest.raises((TypeError, ValueError)) as caught:
             call()
         assert str(caught.value) == sentence
+
+
+def test_a_text_decides_about_the_steady_state_too():
+    """Toy and BackwardHeat have a ``symbol``, but of xi and not of multipliers: it is not what ``rates`` looks for."""
+    toy, n = Toy(a=1.5), 16
+    steady = np.array(toy.steady(Grid(n).x))
+    at_rest, beside = (np.sort(rates(toy, n, state).real) for state in (steady, steady + 1e-9))
+    np.testing.assert_allclose(at_rest, beside, atol=1e-5)
+    found, h = np.sort(rates(BackwardHeat(), n, np.zeros((1, n))).real), 2 * np.pi / n
+    np.testing.assert_allclose(found, np.sort((2 / h * np.sin(np.arange(n) * h / 2)) ** 2), atol=1e-12)
