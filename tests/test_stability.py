@@ -5,10 +5,11 @@ import math
 import numpy as np
 import pytest
 
-from primer import BackwardHeat, Stop, Toy, ftcs, stable_dt
+from primer import Stop, Toy, ftcs, stable_dt
 from primer.schemes.discrete import amplification
 from primer.schemes.grid import Grid
 from primer.schemes.jacobian import rates
+from primer.study.spectrum import jacobian
 from primer.study.stability import OVERSHOOT, amplification_over_modes, frozen_dt
 
 
@@ -99,11 +100,11 @@ def test_at_the_edge_the_sawtooth_is_neutral_and_the_other_bound_holds():
         assert str(caught.value) == sentence
 
 
-def test_a_text_decides_about_the_steady_state_too():
-    """Toy and BackwardHeat have a ``symbol``, but of xi and not of multipliers: it is not what ``rates`` looks for."""
-    toy, n = Toy(a=1.5), 16
-    steady = np.array(toy.steady(Grid(n).x))
-    at_rest, beside = (np.sort(rates(toy, n, state).real) for state in (steady, steady + 1e-9))
-    np.testing.assert_allclose(at_rest, beside, atol=1e-5)
-    found, h = np.sort(rates(BackwardHeat(), n, np.zeros((1, n))).real), 2 * np.pi / n
-    np.testing.assert_allclose(found, np.sort((2 / h * np.sin(np.arange(n) * h / 2)) ** 2), atol=1e-12)
+def test_rates_of_toy_about_its_steady_state():
+    """Against the Jacobian that study/spectrum.py writes by hand."""
+    toy, n = Toy(0.5), 24
+    x = Grid(n).x
+    found = rates(toy, n, toy.steady(x))
+    expected = np.linalg.eigvals(jacobian(toy, n, toy.steady(x)))
+    assert found.size == expected.size
+    assert np.abs(found[:, None] - expected).min(axis=1).max() < 1e-6
