@@ -77,7 +77,7 @@ def growth_limit(law: Law, state: BaseState) -> Numbers:
     >>> print(f"{growth_limit(law, BaseState(p=0.2, phi=0.55, I=0.1)):.6f}")  # something grows, yet it is well posed
     1.000070
     """
-    return leading(coefficients(law, state)).limit
+    return leading(coefficients(law, state), search=False).limit
 
 
 def largest_growth(law: Law, state: BaseState, k: ArrayLike) -> tuple[Numbers, np.ndarray]:
