@@ -158,7 +158,8 @@ def equations_page(links):
     text = (
         "<h1>The paper's equations by number</h1><p>Numbers are those of arXiv:1610.05135; a label is what the source "
         "of the paper calls the equation, and what the package's documentation says. Beside them, what was found of "
-        'the claims that rest on them.</p><div class="wide" tabindex="0" role="group" aria-label="Equations"><table class="claimed">'
+        'the claims that rest on them.</p><div class="wide" tabindex="0" role="group" aria-label="Equations">'
+        '<table class="claimed">'
         '<thead><tr><th scope="col">number</th><th scope="col">label</th><th scope="col">claims</th></tr></thead>'
         f"<tbody>{''.join(rows)}</tbody></table></div>"
     )
