@@ -95,7 +95,7 @@ def growth_limit(law: Law, state: BaseState, dim: int = 2, lode: ArrayLike = 0.0
     1.000070
     """
     c, angle = _frozen(law, state, dim, lode)
-    return leading(c).limit if angle is None else space.leading(c, angle).limit
+    return leading(c, search=False).limit if angle is None else space.leading(c, angle).limit
 
 
 def largest_growth(law: Law, state: BaseState, k: ArrayLike) -> tuple[Numbers, np.ndarray]:

@@ -19,9 +19,9 @@ At fixed m all four are linear in s: T, Delta and N/Delta take their extremes on
 axes, where they are quadratics. So they are found without a scan.
 
 The proof (section 1 of the paper anticipates it): let B = C, A > 0, Gamma > 0, t > 0. Then V is a sum of two squares
-and of t (1 + e e'/3 - q q'); the last is u'(1 + e e'/3)u - (q.u)^2 = 2 |E'|^2 - (N:E')^2 >= 0 by Cauchy and Schwarz, E' the
-deviator of (e u' + u e')/2. If u'V u = 0 then q.u = 0 and e.u = B q.u = 0, so |u|^2 = 0. Hence V is positive definite
-in all directions, two growth rates fall like -k^2, and the third tends to phi e.V^-1 v, which is bounded.
+and of t (1 + e e'/3 - q q'); u'(1 + e e'/3)u - (q.u)^2 = 2 |E'|^2 - (N:E')^2 >= 0 by Cauchy and Schwarz, E' the deviator
+of (e u' + u e')/2. If u'V u = 0 then q.u = 0 and e.u = B q.u = 0, so |u|^2 = 0. Hence V is positive definite in all
+directions, two growth rates fall like -k^2, and the third tends to phi e.V^-1 v, which is bounded.
 
 Without rates (A = 0, CSSM) a null vector needs E' along N and e.u = B q.u, so that e u' + u e', whose middle eigenvalue
 is 0, is along N + 2B/3: it exists only if the middle eigenvalue of N is -2B/3. With B = C = f that is plane strain.
