@@ -19,7 +19,7 @@ At fixed m all four are linear in s: T, Delta and N/Delta take their extremes on
 axes, where they are quadratics. So they are found without a scan.
 
 The proof (section 1 of the paper anticipates it): let B = C, A > 0, Gamma > 0, t > 0. Then V is a sum of two squares
-and of t (1 + e e'/3 - q q'); u'(1 + e e'/3)u - (q.u)^2 = 2 |E'|^2 - (N:E')^2 >= 0 by Cauchy and Schwarz, E' the deviator
+and of t (1 + e e'/3 - q q'); u'(1 + e e'/3)u - (q.u)^2 = 2 |E'|^2 - (N:E')^2 >= 0 by Cauchy-Schwarz, E' the deviator
 of (e u' + u e')/2. If u'V u = 0 then q.u = 0 and e.u = B q.u = 0, so |u|^2 = 0. Hence V is positive definite in all
 directions, two growth rates fall like -k^2, and the third tends to phi e.V^-1 v, which is bounded.
 
