@@ -18,12 +18,14 @@ from primer.schemes.fourier import Fourier
 from primer.schemes.grid import CENTRAL, Grid, Stencil
 from primer.schemes.lines_block import compilable, marched
 from primer.schemes.marching import a_problem, fields_of, grid_of, orders_of, slope_of
+from primer.schemes.progress import step_bar
 from primer.schemes.runge_kutta import RK4, RungeKutta
 from primer.types import Problem
 
 MAX_STEPS = 10**7  # a march of more steps than this (some minutes) is refused before it starts
 MAX_WORK = 10**12  # and one of more points times steps, which takes hours
 Space: TypeAlias = Mapping[int, Stencil] | Mapping[int, Fourier]  # derivative -> stencil
+_TELL = 64  # steps in NumPy between two looks up
 _BLOWN_UP = 1e100  # growth over the initial data at which a march is given up, at whatever stage of a step
 
 
@@ -66,7 +68,13 @@ class Lines:
 
 
 def march_lines(
-    problem: Problem, n: int, dt: float, t_end: float, space: Space = CENTRAL, time: RungeKutta = RK4
+    problem: Problem,
+    n: int,
+    dt: float,
+    t_end: float,
+    space: Space = CENTRAL,
+    time: RungeKutta = RK4,
+    progress: bool = True,
 ) -> Lines:
     """March ``problem`` to t_end on n periodic points, with the derivatives ``space`` and the step ``time``.
 
@@ -78,6 +86,7 @@ def march_lines(
     t_end        the end, t_end >= 0
     space        derivative -> stencil: ``CENTRAL``, ``CENTRAL_4``, ``CENTRAL_6`` or ``FOURIER``
     time         ``RK4`` or ``RK8``
+    progress     whether to show a progress bar for a march of more than two seconds, on a terminal
 
     Returns
     -------
@@ -108,7 +117,7 @@ def march_lines(
     # A quotient that rounding leaves a little above a whole number is that number.
     steps = math.ceil(t_end / dt * (1 - 1e-12))
     step = t_end / steps if steps else dt
-    (final,), _ = trace(problem, grid.n, space, time, np.array([step]), np.array([steps]))
+    (final,), _ = trace(problem, grid.n, space, time, np.array([step]), np.array([steps]), progress)
     return Lines(problem, grid.n, step, t_end, space, time, grid.x, tuple(final))
 
 
@@ -144,8 +153,10 @@ def _largest(n, *derivatives):
     return [float(np.abs(d.multiplier(xi, 2 * math.pi / n)).max()) for d in derivatives]
 
 
-def trace(problem, n, space, time, dt, counts):
+def trace(problem, n, space, time, dt, counts, progress=False):
     """The states on n points after counts[0] steps of dt[0], then counts[1] of dt[1], and so on: (m, fields, n).
+
+    With ``progress`` there is a bar, as ``march_lines`` has it.
 
     Returns
     -------
@@ -157,13 +168,14 @@ def trace(problem, n, space, time, dt, counts):
     states, depth = np.full((len(dt), *y.shape), np.nan, dtype=y.dtype), np.full(len(dt), np.inf)
     begin = np.concatenate([[0.0], np.cumsum(np.multiply(dt, counts))[:-1]])
     march = marched if compilable(problem, n, space) and able() else _interpreted
-    march(problem, x, y, space, time, dt, begin, counts, limit, states, depth)
+    with step_bar(int(np.sum(counts)), progress) as tell:
+        march(problem, x, y, space, time, dt, begin, counts, limit, states, depth, tell)
     return states, depth
 
 
-def _interpreted(problem, x, y, space, time, dt, begin, counts, limit, states, depth):
+def _interpreted(problem, x, y, space, time, dt, begin, counts, limit, states, depth, tell):
     """The same march in NumPy, for any problem."""
-    h, deep, lost = grid_of(problem, x.size).h, 0.0, np.zeros_like(y)
+    h, deep, lost, made = grid_of(problem, x.size).h, 0.0, np.zeros_like(y), 0
     tendency = slope_of(problem, x, lambda f, m: space[m](f, h))
 
     def slope(y, t):
@@ -179,6 +191,8 @@ def _interpreted(problem, x, y, space, time, dt, begin, counts, limit, states, d
                 y, lost = time.exact_step(slope, y, lost, dt[m], begin[m] + step * dt[m])
                 if not np.abs(y).max() <= limit:
                     return
+                if (made := made + 1) % _TELL == 0:
+                    tell(made)
             states[m], depth[m] = y, deep
 
 
