@@ -142,8 +142,8 @@ def _solved(E, S, s, V):
         for r in range(size):
             if r != step and rows[r][step]:
                 factor = rows[r][step] / top[step]
-                row = zip(rows[r], top, strict=True)
-                rows[r] = [x - factor * y if c > step and y else x for c, (x, y) in enumerate(row)]
+                pairs = enumerate(zip(rows[r], top, strict=True))
+                rows[r] = [x - factor * y if c > step and y else x for c, (x, y) in pairs]
     return mp.matrix([[x / row[i] for x in row[size:]] for i, row in enumerate(rows)])
 
 
