@@ -14,7 +14,8 @@ from primer.checks import affordable, instance, real, shown
 from primer.compiled import able
 from primer.problems.toy import Toy
 from primer.schemes.block import of_text
-from primer.schemes.fourier import Fourier
+from primer.schemes.by_transforms import slope_by_transforms, step_by_products
+from primer.schemes.fourier import MATRIX_UP_TO, Fourier
 from primer.schemes.grid import CENTRAL, Grid, Stencil
 from primer.schemes.lines_block import compilable, marched
 from primer.schemes.marching import a_problem, fields_of, grid_of, orders_of, slope_of
@@ -164,10 +165,15 @@ def trace(problem, n, space, time, dt, counts):
 def _interpreted(problem, x, y, space, time, dt, begin, counts, limit, states, depth):
     """The same march in NumPy, for any problem."""
     h, deep, lost = grid_of(problem, x.size).h, 0.0, np.zeros_like(y)
-    tendency = slope_of(problem, x, lambda f, m: space[m](f, h))
+    if of_text(problem) and x.size > MATRIX_UP_TO and all(isinstance(d, Fourier) for d in space.values()):
+        tendency = slope_by_transforms(problem, x, space, y.dtype.kind == "c")
+        exact_step = step_by_products(time, y)
+    else:
+        exact_step = time.exact_step
+        tendency = slope_of(problem, x, lambda f, m: space[m](f, h))
 
     def slope(y, t):
-        if not np.abs(y).max() <= limit:
+        if not _within(y, limit):
             return np.full_like(y, np.nan)
         return tendency(y, t)
 
@@ -176,10 +182,15 @@ def _interpreted(problem, x, y, space, time, dt, begin, counts, limit, states, d
         for m, count in enumerate(counts):
             for step in range(count):
                 deep -= dt[m] * min(0.0, y[0].real.min())
-                y, lost = time.exact_step(slope, y, lost, dt[m], begin[m] + step * dt[m])
-                if not np.abs(y).max() <= limit:
+                y, lost = exact_step(slope, y, lost, dt[m], begin[m] + step * dt[m])
+                if not _within(y, limit):
                     return
             states[m], depth[m] = y, deep
+
+
+def _within(y, limit):
+    """Whether every |number| is <= limit: surely, if the root of the sum of their squares is."""
+    return np.vdot(y, y).real <= limit * limit < math.inf or np.abs(y).max() <= limit
 
 
 @lru_cache(maxsize=64)
