@@ -15,6 +15,7 @@ from primer.compiled import able
 from primer.problems.toy import Toy
 from primer.schemes.block import of_text
 from primer.schemes.by_transforms import slope_by_transforms, step_by_products
+from primer.schemes.exponential import Exponential, exponential_march
 from primer.schemes.fourier import MATRIX_UP_TO, Fourier
 from primer.schemes.grid import CENTRAL, Grid, Stencil
 from primer.schemes.lines_block import compilable, marched
@@ -52,7 +53,7 @@ class Lines:
     dt: float
     t: float
     space: Space = field(repr=False)
-    time: RungeKutta
+    time: RungeKutta | Exponential
     x: np.ndarray = field(repr=False)
     final: tuple[np.ndarray, ...] = field(repr=False)
 
@@ -67,7 +68,7 @@ class Lines:
 
 
 def march_lines(
-    problem: Problem, n: int, dt: float, t_end: float, space: Space = CENTRAL, time: RungeKutta = RK4
+    problem: Problem, n: int, dt: float, t_end: float, space: Space = CENTRAL, time: RungeKutta | Exponential = RK4
 ) -> Lines:
     """March ``problem`` to t_end on n periodic points, with the derivatives ``space`` and the step ``time``.
 
@@ -78,7 +79,8 @@ def march_lines(
     dt : float   the largest step; the march takes ceil(t_end/dt) equal ones and so ends at t_end itself
     t_end        the end, t_end >= 0
     space        derivative -> stencil: ``CENTRAL``, ``CENTRAL_4``, ``CENTRAL_6`` or ``FOURIER``
-    time         ``RK4`` or ``RK8``
+    time         ``RK4`` or ``RK8``; or ``ETDRK4``, whose step may be far longer where the equation is stiff, for a
+                 problem with a text and ``FOURIER``
 
     Returns
     -------
@@ -99,11 +101,16 @@ def march_lines(
     a_problem("problem", problem, ("initial", "forcing", "rhs"))
     grid, dt, t_end = grid_of(problem, n), real("dt", dt, above=0), real("t_end", t_end, least=0)
     _check(space, time, orders_of(problem))
+    if isinstance(time, Exponential) and not (of_text(problem) and all(type(d) is Fourier for d in space.values())):
+        raise ValueError(
+            f"time must be a Runge-Kutta step such as RK4, or with space FOURIER and a problem that is a text "
+            f"{time.name}, got {time.name} with {shown(problem)}"
+        )
     if not t_end / dt <= MAX_STEPS:
         raise ValueError(
             f"dt must be >= t_end/{MAX_STEPS:.0e} (more steps take too long), got {dt!r} with t_end {t_end!r}"
         )
-    affordable("n: the march", 16 * grid.n * (len(time.b) + 8), f"n = {grid.n}")
+    affordable("n: the march", 16 * grid.n * (_stages(time) + 8), f"n = {grid.n}")
     if not grid.n * t_end / dt <= MAX_WORK:
         raise ValueError(f"n and dt must be such that n t_end/dt <= {MAX_WORK:.0e}, got n = {grid.n} and dt = {dt!r}")
     # A quotient that rounding leaves a little above a whole number is that number.
@@ -114,7 +121,8 @@ def march_lines(
 
 
 def _check(space, time, orders=(1, 2)):
-    instance("time", time, RungeKutta, "RungeKutta step such as RK4 or RK8")
+    if not isinstance(time, Exponential):
+        instance("time", time, RungeKutta, "RungeKutta step such as RK4 or RK8, or ETDRK4")
     if not isinstance(space, dict) or not all(isinstance(d, Stencil | Fourier) for d in space.values()):
         raise TypeError(f"space must be a table of derivatives such as CENTRAL or FOURIER, got {shown(space)}")
     missing = [m for m in orders if m not in space]
@@ -122,6 +130,10 @@ def _check(space, time, orders=(1, 2)):
         raise TypeError(
             f"space must be a table of derivatives such as CENTRAL or FOURIER, got one without order {missing[0]}"
         )
+
+
+def _stages(time):
+    return len(time.b) if isinstance(time, RungeKutta) else 80  # circles of 64 points about each mode
 
 
 def stable_step(toy: Toy, n: int, space: Space, time: RungeKutta) -> float:
@@ -157,6 +169,9 @@ def trace(problem, n, space, time, dt, counts):
     x, y, limit = start(problem, n)
     states, depth = np.full((len(dt), *y.shape), np.nan, dtype=y.dtype), np.full(len(dt), np.inf)
     begin = np.concatenate([[0.0], np.cumsum(np.multiply(dt, counts))[:-1]])
+    if isinstance(time, Exponential):
+        exponential_march(problem, x, y, space, dt, begin, counts, limit, states, depth)
+        return states, depth
     march = marched if compilable(problem, n, space) and able() else _interpreted
     march(problem, x, y, space, time, dt, begin, counts, limit, states, depth)
     return states, depth
