@@ -20,12 +20,14 @@ from primer.schemes.fourier import MATRIX_UP_TO, Fourier
 from primer.schemes.grid import CENTRAL, Grid, Stencil
 from primer.schemes.lines_block import compilable, marched
 from primer.schemes.marching import a_problem, fields_of, grid_of, orders_of, slope_of
+from primer.schemes.progress import step_bar
 from primer.schemes.runge_kutta import RK4, RungeKutta
 from primer.types import Problem
 
 MAX_STEPS = 10**7  # a march of more steps than this (some minutes) is refused before it starts
 MAX_WORK = 10**12  # and one of more points times steps, which takes hours
 Space: TypeAlias = Mapping[int, Stencil] | Mapping[int, Fourier]  # derivative -> stencil
+_TELL = 64  # steps in NumPy between two looks up
 _BLOWN_UP = 1e100  # growth over the initial data at which a march is given up, at whatever stage of a step
 
 
@@ -68,7 +70,13 @@ class Lines:
 
 
 def march_lines(
-    problem: Problem, n: int, dt: float, t_end: float, space: Space = CENTRAL, time: RungeKutta | Exponential = RK4
+    problem: Problem,
+    n: int,
+    dt: float,
+    t_end: float,
+    space: Space = CENTRAL,
+    time: RungeKutta | Exponential = RK4,
+    progress: bool = True,
 ) -> Lines:
     """March ``problem`` to t_end on n periodic points, with the derivatives ``space`` and the step ``time``.
 
@@ -81,6 +89,7 @@ def march_lines(
     space        derivative -> stencil: ``CENTRAL``, ``CENTRAL_4``, ``CENTRAL_6`` or ``FOURIER``
     time         ``RK4`` or ``RK8``; or ``ETDRK4``, whose step may be far longer where the equation is stiff, for a
                  problem with a text and ``FOURIER``
+    progress     whether to show a progress bar for a march of more than two seconds, on a terminal
 
     Returns
     -------
@@ -116,7 +125,7 @@ def march_lines(
     # A quotient that rounding leaves a little above a whole number is that number.
     steps = math.ceil(t_end / dt * (1 - 1e-12))
     step = t_end / steps if steps else dt
-    (final,), _ = trace(problem, grid.n, space, time, np.array([step]), np.array([steps]))
+    (final,), _ = trace(problem, grid.n, space, time, np.array([step]), np.array([steps]), progress)
     return Lines(problem, grid.n, step, t_end, space, time, grid.x, tuple(final))
 
 
@@ -157,8 +166,10 @@ def _largest(n, *derivatives):
     return [float(np.abs(d.multiplier(xi, 2 * math.pi / n)).max()) for d in derivatives]
 
 
-def trace(problem, n, space, time, dt, counts):
+def trace(problem, n, space, time, dt, counts, progress=False):
     """The states on n points after counts[0] steps of dt[0], then counts[1] of dt[1], and so on: (m, fields, n).
+
+    With ``progress`` there is a bar, as ``march_lines`` has it.
 
     Returns
     -------
@@ -169,17 +180,16 @@ def trace(problem, n, space, time, dt, counts):
     x, y, limit = start(problem, n)
     states, depth = np.full((len(dt), *y.shape), np.nan, dtype=y.dtype), np.full(len(dt), np.inf)
     begin = np.concatenate([[0.0], np.cumsum(np.multiply(dt, counts))[:-1]])
-    if isinstance(time, Exponential):
-        exponential_march(problem, x, y, space, dt, begin, counts, limit, states, depth)
-        return states, depth
-    march = marched if compilable(problem, n, space) and able() else _interpreted
-    march(problem, x, y, space, time, dt, begin, counts, limit, states, depth)
+    fast = isinstance(time, RungeKutta) and compilable(problem, n, space) and able()
+    march = exponential_march if isinstance(time, Exponential) else marched if fast else _interpreted
+    with step_bar(int(np.sum(counts)), progress) as tell:
+        march(problem, x, y, space, time, dt, begin, counts, limit, states, depth, tell)
     return states, depth
 
 
-def _interpreted(problem, x, y, space, time, dt, begin, counts, limit, states, depth):
+def _interpreted(problem, x, y, space, time, dt, begin, counts, limit, states, depth, tell):
     """The same march in NumPy, for any problem."""
-    h, deep, lost = grid_of(problem, x.size).h, 0.0, np.zeros_like(y)
+    h, deep, lost, made = grid_of(problem, x.size).h, 0.0, np.zeros_like(y), 0
     if of_text(problem) and x.size > MATRIX_UP_TO and all(isinstance(d, Fourier) for d in space.values()):
         tendency = slope_by_transforms(problem, x, space, y.dtype.kind == "c")
         exact_step = step_by_products(time, y)
@@ -200,6 +210,8 @@ def _interpreted(problem, x, y, space, time, dt, begin, counts, limit, states, d
                 y, lost = exact_step(slope, y, lost, dt[m], begin[m] + step * dt[m])
                 if not _within(y, limit):
                     return
+                if (made := made + 1) % _TELL == 0:
+                    tell(made)
             states[m], depth[m] = y, deep
 
 
