@@ -30,7 +30,8 @@ class Batch:
             row[:] = (2j * math.pi / (n * grid.h) * waves) ** m
             if n % 2 == 0 and m % 2:
                 row[n // 2] = 0
-        self.state, self.found = None, ()
+        self.state: list = []
+        self.found = np.zeros((0, n))
 
     def of(self, state):
         """Make all derivatives of the rows of a state."""
