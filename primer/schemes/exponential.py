@@ -7,9 +7,9 @@ With Fourier modes v of the fields, L the constant-coefficient part of the right
 Steps are then limited by N alone. L comes from the text's tree: its linearisation about the initial data, each slope
 replaced by its mean over x; whatever L is, N makes up for it, so that only speed and stability depend on the choice.
 
-A hundred steps, each four hundred times the largest that RK4 could take:
+A hundred steps (Cox & Matthews 2002), each four hundred times the largest that RK4 could take:
 
->>> from primer import ETDRK4, FOURIER, PDE, march_lines
+>>> from primer import FOURIER, PDE, march_lines
 >>> pde = PDE("u_t = -u_xxxx - u_xx - u*u_x", {"u": "cos(x)/4"}, period=32)  # Kuramoto and Sivashinsky
 >>> end = march_lines(pde, 128, 0.05, 5.0, FOURIER, ETDRK4)
 >>> end.blew_up
