@@ -40,6 +40,7 @@ FLOORS = [
     "run",
     "diagnosing",
     "region_command",
+    "base_state",
     "__main__",
 ]
 

@@ -8,6 +8,8 @@ import pytest
 from primer import Stop, Toy, ftcs, stable_dt
 from primer.schemes.discrete import amplification
 from primer.schemes.grid import Grid
+from primer.schemes.jacobian import rates
+from primer.study.spectrum import jacobian
 from primer.study.stability import OVERSHOOT, amplification_over_modes, frozen_dt
 
 
@@ -96,3 +98,13 @@ def test_at_the_edge_the_sawtooth_is_neutral_and_the_other_bound_holds():
         with pytest.raises((TypeError, ValueError)) as caught:
             call()
         assert str(caught.value) == sentence
+
+
+def test_rates_of_toy_about_its_steady_state():
+    """Against the Jacobian that study/spectrum.py writes by hand."""
+    toy, n = Toy(0.5), 24
+    x = Grid(n).x
+    found = rates(toy, n, toy.steady(x))
+    expected = np.linalg.eigvals(jacobian(toy, n, toy.steady(x)))
+    assert found.size == expected.size
+    assert np.abs(found[:, None] - expected).min(axis=1).max() < 1e-6

@@ -6,6 +6,7 @@ from primer.granular.criteria import conditions, critical_state, incompressible_
 from primer.granular.flow_rule import NoPressure
 from primer.granular.friction import Friction, MuI
 from primer.granular.linearisation import coefficients, linearise
+from primer.granular.localisation import localise
 from primer.granular.march import march_waves
 from primer.granular.materials import DISCS_2011, EXAMPLE_COMPACTION, GLASS_BEADS, GLASS_BEADS_2015, GLASS_BEADS_2017
 from primer.granular.mode_growth import mode_growth
@@ -13,6 +14,7 @@ from primer.granular.posedness import growth_limit, largest_growth, verdict
 from primer.granular.pressure import Stress, pressure, stress
 from primer.granular.rheology import CIDR, CSSM, Coulomb, IncompressibleMuI
 from primer.granular.state import BaseState, admit
+from primer.granular.stress_path import stress_path
 from primer.granular.waves import PlaneWave
 
 __all__ = [
@@ -41,10 +43,12 @@ __all__ = [
     "incompressible_criterion",
     "largest_growth",
     "linearise",
+    "localise",
     "march_waves",
     "mode_growth",
     "neutral_inertial_numbers",
     "pressure",
     "stress",
+    "stress_path",
     "verdict",
 ]

@@ -1,8 +1,7 @@
-"""``primer granular``: the hypotheses, the verdict and the limit of a granular law at a base state."""
+"""What ``primer granular`` says: the hypotheses, the verdict and the limit of a granular law at a base state."""
 
 from __future__ import annotations
 
-import json
 import math
 from collections.abc import Callable
 
@@ -18,46 +17,6 @@ from primer.granular.state import BaseState
 from primer.types import Law
 
 LAWS = ("coulomb", "mui", "cssm", "cidr")
-
-
-def add_command(commands):
-    """Add ``granular`` to the command line's argparse subparsers."""
-    parser = commands.add_parser(
-        "granular",
-        help="is a granular rheology well posed at a base state?",
-        description="Report the hypotheses of the well-posedness theorem, the verdict, and the limit of the largest "
-        "growth rate as |xi| -> infinity, for one of four granular laws frozen at a base state (sections 2 to 4).",
-        epilog="example: primer granular --law cidr --phi 0.55 --p 0.2 --I 0.1",
-        allow_abbrev=False,
-    )
-    friction, packing = GLASS_BEADS.friction, EXAMPLE_COMPACTION
-    parser.add_argument(
-        "--law", required=True, type=_law, choices=LAWS, help="Coulomb, incompressible mu(I), CSSM or CIDR"
-    )
-    parser.add_argument("--p", type=float, required=True, help="pressure, in any unit (that of C0)")
-    parser.add_argument("--phi", type=float, required=True, help="solids fraction")
-    parser.add_argument("--I", type=float, required=True, help="inertial number")
-    parser.add_argument("--d", type=float, default=1.0, help="particle diameter (default: 1)")
-    parser.add_argument("--rho", type=float, default=1.0, help="density of the grains (default: 1)")
-    parser.add_argument("--mu1", type=float, default=friction.mu1, help="mu as I -> 0 (default: tan 21°)")
-    parser.add_argument("--mu2", type=float, default=friction.mu2, help="mu as I -> infinity (default: tan 33°)")
-    parser.add_argument("--I0", type=float, default=friction.I0, help="scale of mu(I) (default: 0.279)")
-    parser.add_argument("--mu", type=float, help="mu of Coulomb and CSSM (default: mu(I) at the state)")
-    parser.add_argument("--phi0", type=float, default=packing.phi0, help="random loose packing (default: 0.5)")
-    parser.add_argument("--eps", type=float, default=packing.eps, help="width of the range of phi (default: 0.1)")
-    parser.add_argument("--C0", type=float, default=packing.C0, help="scale of C(phi), a pressure (default: 1)")
-    parser.add_argument("--json", action="store_true", help="print one JSON object")
-    parser.set_defaults(command=_run)
-
-
-def _run(options):
-    answer = report(**{name: value for name, value in vars(options).items() if name in _NAMES})
-    return json.dumps(answer, indent=1) if options.json else text(answer)
-
-
-def _law(text):
-    """As people write it: CIDR, mu(I)."""
-    return text.lower().replace("mu(i)", "mui")
 
 
 def report(law, p, phi, I, d=1.0, rho=1.0, mu1=None, mu2=None, I0=None, mu=None, phi0=None, eps=None, C0=None):
@@ -139,7 +98,6 @@ def text(answer):
 
 
 _STATE = ("p", "phi", "I", "d", "rho")
-_NAMES = ("law", "p", "phi", "I", "d", "rho", "mu1", "mu2", "I0", "mu", "phi0", "eps", "C0")
 
 
 def _or(value, default):

@@ -52,9 +52,10 @@ class Frame:
 
 @dataclass(frozen=True, eq=False)
 class Local:
-    """At each point: P, ||D||, I, the force T D n/||D|| - P n on a front, (2, ...) or, along m, (1, ...); reasons."""
+    """At each point: P, T, ||D||, I, the force T D n/||D|| - P n on a front (along m alone: (1, ...)), and reasons."""
 
     p: np.ndarray
+    T: np.ndarray
     D: np.ndarray
     I: np.ndarray
     flux: np.ndarray
@@ -101,7 +102,20 @@ def local_stress(law, state, frame, slope, phi):
         flux = np.array([e * (m[0] * n[0] - m[1] * n[1]) + o * (m[0] * n[1] + m[1] * n[0])])
     else:
         flux = np.array([e * n[0] + o * n[1] - p * n[0], o * n[0] - e * n[1] - p * n[1]])
-    return Local(p, D, I, flux, reason)
+    return Local(p, T, D, I, flux, reason)
+
+
+def forces(law, state, a, b, phi, creep=0.0):
+    """The ``Local`` stress of a layer that is sheared at rates a and stretched across at rates b, force (2, n).
+
+    Of the force on its planes the first part is along them, the second across; it does not stretch along itself.
+    ``creep`` is added to ||D|| as the root of a sum of squares, so that the stress has no jump where shear stops.
+    """
+    D = np.hypot(np.hypot(a, b) / 2, creep)
+    p, T, I, reason = _of_flow(law, state, None, b, D, phi)
+    with np.errstate(all="ignore"):
+        flux = np.array([T * a / (2 * D), T * b / (2 * D) - p])
+    return Local(p, T, D, I, flux, reason)
 
 
 def _of_flow(law, state, frame, div, D, phi):

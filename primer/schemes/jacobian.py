@@ -40,7 +40,7 @@ def rates(problem: Any, n: int, state: Any = None, t: float = 0.0, space: Any = 
     def derivative(f, m):
         return space[m](f, h)
 
-    if hasattr(problem, "symbol") and _is_base(problem, x, state):
+    if not hasattr(problem, "evolution") and hasattr(problem, "symbol") and _is_base(problem, x, state):
         return np.linalg.eigvals(problem.symbol(_waves(n, derivative, np.arange(n))(1))).ravel()
     if not hasattr(problem, "evolution"):
         return np.linalg.eigvals(_quotients(problem, x, state, derivative, t))
