@@ -101,7 +101,7 @@ def test_dataclasses_are_frozen():
 
 def test_results_of_studies_that_hold_arrays_are_compared_as_themselves():
     """The == of arrays is no truth value, and they have no hash; everything else is equal where its parts are."""
-    by_value = {"HardCase", "Method", "Point", "WorkPrecision", "Diagnosis", "Forecast", "Judgement", "Nudged"}
+    by_value = {"HardCase", "Method", "Point", "WorkPrecision", "Diagnosis", "Forecast", "Judgement", "Nudged", "Piece"}
     for path in (PACKAGE / "study").glob("*.py"):
         for thing in vars(import_module(f"primer.study.{path.stem}")).values():
             if isinstance(thing, type) and is_dataclass(thing) and thing.__module__ == f"primer.study.{path.stem}":

@@ -70,6 +70,13 @@ class Region:
     isolated         pairs ({name: value}, Verdict) of points on lines, or single ones, whose kind is that of neither
                      side: of those that lie where a coefficient vanishes
     computed         how many verdicts were computed
+
+    Of the test of section A2.1, see ``region``.
+
+    >>> from primer import region
+    >>> found = region("u_t = (u^3 - u)_xx", {"u": (-2, 2)}, uniform=True, n=21)
+    >>> print(found.boundaries.round(8), found.pieces[0].kind, found.verdict(u=0.5).kind)
+    [-0.57735027  0.57735027] well-posed ill-posed
     """
 
     names: tuple
