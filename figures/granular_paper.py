@@ -28,7 +28,7 @@ def draw(law):
         columns=3,
         width=11.5,
         height=7.2,
-        title=f"The constitutive relations in pictures   (paper: Figures 1 to 3; CSSM, $\\mu = {law.mu:.3f}$)",
+        title=f"The constitutive relations in pictures   (paper: Figures 1 to 3; CSSM, $\\mu = {law.mu:.3f}$)\n",
     )
     draw_stress_axes(axes[0, 0])
     axes[0, 0].set_title("(1a) stress axes, compression inwards", pad=18)

@@ -50,5 +50,5 @@ def draw(result):
     figure.colorbar(image, ax=left, label="time of the blow-up")
     mode = result["paper"].mode
     draw_mode(right, mode)
-    right.set(title=f"(b) a = 0.5, N = {mode.n}: the mode, {mode.parity}")
+    right.set(title=f"(b) a = 0.5, N = {mode.n}:\nthe mode, {mode.parity}")
     return figure

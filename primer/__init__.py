@@ -21,6 +21,7 @@ _HOME = {
     "Compaction": "granular.compaction",
     "Coulomb": "granular.rheology",
     "Diagnosis": "study.diagnosis",
+    "ETDRK4": "schemes.exponential",
     "EULER": "schemes.runge_kutta",
     "Examination": "study.examination",
     "FOURIER": "schemes.fourier",

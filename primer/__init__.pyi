@@ -34,6 +34,7 @@ from .problems.heat import BackwardHeat as BackwardHeat
 from .problems.pde import PDE as PDE
 from .problems.toy import Toy as Toy
 from .schemes.ensemble import ftcs_ensemble as ftcs_ensemble
+from .schemes.exponential import ETDRK4 as ETDRK4
 from .schemes.fourier import FOURIER as FOURIER
 from .schemes.ftcs import ftcs as ftcs
 from .schemes.grid import CENTRAL as CENTRAL

@@ -9,10 +9,10 @@ from dataclasses import asdict
 from typing import Any
 
 from primer import __version__
+from primer.base_state import add_command as add_granular
 from primer.claims import VERDICTS, claims
 from primer.claims import report as claims_report
 from primer.diagnosing import add_command as add_diagnose
-from primer.granular.command import add_command as add_granular
 from primer.lab import add_command as add_lab
 from primer.run import add_command as add_run
 from primer.site import add_command as add_site

@@ -1,8 +1,6 @@
 """The paper's checkable claims, each with what was computed, what shows it, and a verdict: one table, claims.toml."""
 
-import tomllib
 from dataclasses import dataclass
-from importlib.resources import files
 
 VERDICTS = ("confirmed", "corrected", "sharpened")
 
@@ -44,6 +42,9 @@ def claims(word="", verdict=None):
         raise TypeError(f"word must be text, got {word!r}")
     if verdict is not None and verdict not in VERDICTS:
         raise ValueError(f"verdict must be one of {', '.join(VERDICTS)}, got {verdict!r}")
+    import tomllib  # only now: the command line asks for the verdicts alone
+    from importlib.resources import files
+
     rows = tomllib.loads(files("primer").joinpath("claims.toml").read_text(encoding="utf-8"))["claim"]
     found = (Claim(**{**row, "shown_by": tuple(row["shown_by"])}) for row in rows)
     return tuple(c for c in found if verdict in (None, c.verdict) and word.casefold() in _text(c).casefold())

@@ -6,7 +6,8 @@ import sys
 
 import pytest
 
-import primer
+import primer.base_state
+import primer.granular.command
 from primer.__main__ import main
 
 TOY = "u_t = v_x; v_t = eps*u*v_xx + u_x - v - sin(x)"
@@ -111,3 +112,11 @@ def test_as_a_module():
     assert subprocess.run([*command, "--version"], capture_output=True, text=True).stdout == (
         f"primer {primer.__version__}\n"
     )
+
+
+def test_help_needs_no_numpy():
+    """And the laws that the help names are those of the package."""
+    code = "import sys; from primer.__main__ import _parser; _parser().format_help(); print('numpy' in sys.modules)"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout == "False\n"
+    assert primer.base_state._LAWS == primer.granular.named.LAWS

@@ -20,11 +20,13 @@ TRUTH = {
     if name.startswith("truth_")
 }
 NUMBERS = [name for name in CHECKS if inspect.get_annotations(getattr(exercises, name))["answer"] is float]
-CHOICES = [name for name in CHECKS if name not in NUMBERS]
+CHOICES = [name for name in CHECKS if inspect.get_annotations(getattr(exercises, name))["answer"] is str]
+PROGRAMS = [name for name in CHECKS if name not in NUMBERS + CHOICES]  # a function of the student's: their own tests
 
 
 def test_each_exercise_has_a_second_route():
     assert sorted(TRUTH) == CHECKS
+    assert PROGRAMS == ["check_09_1"]
 
 
 @pytest.mark.slow

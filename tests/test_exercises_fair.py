@@ -17,7 +17,7 @@ import mpmath as mp
 import numpy as np
 import pytest
 import sympy as sp
-from test_exercises import CHECKS, NUMBERS, TRUTH
+from test_exercises import CHECKS, CHOICES, NUMBERS, TRUTH
 from truths.reading import numbers
 
 from primer import Toy, diagnose, exercises, verdict
@@ -236,7 +236,7 @@ def test_a_hypothesis_or_a_term_may_be_written_in_any_way():
         assert "wrong sign" in exercises.check_08_3(answer).said
 
 
-@pytest.mark.parametrize("name", [name for name in CHECKS if name not in NUMBERS])
+@pytest.mark.parametrize("name", CHOICES)
 def test_no_two_options_are_read_as_the_same(name):
     form = forms.term if name == "check_08_3" else forms.plain
     for seed in questions(name).values():

@@ -37,6 +37,7 @@ def outputs(notebook):
 
 def test_there_is_a_course():
     assert LESSONS
+    assert [path.name[:2] for path in LESSONS] == [f"{k:02d}" for k in range(len(LESSONS))]
     assert all(re.fullmatch(r"\d\d_[a-z_]+\.ipynb", path.name) for path in LESSONS)
 
 
@@ -59,6 +60,8 @@ def test_is_executed_from_top_to_bottom(path):
 @pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.name)
 def test_cells_are_short_and_plain(path):
     for cell in code(read(path)):
+        if "yours" in cell.metadata.get("tags", ()):  # the student's own program
+            continue
         lines = [line for line in cell.source.splitlines() if line.strip() and "import" not in line.split()]
         assert len(lines) <= 5, cell.source
         assert not re.search(r"^\s*(def|class|for|while|global|%|!)\b", cell.source, flags=re.M), cell.source

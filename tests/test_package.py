@@ -39,6 +39,7 @@ FLOORS = [
     "site",
     "run",
     "diagnosing",
+    "base_state",
     "__main__",
 ]
 

@@ -11,6 +11,7 @@ from jupyter import ARTEFACTS, CHROMIUM, chromium
 
 from primer.__main__ import main
 from primer.scenes.pde import pde as answer
+from primer.view.explorers import PDEExplorer
 from primer.view.page.closed import closed_form
 from primer.view.page.collection import PAGES, shelves
 from primer.view.page.record import recorded
@@ -211,6 +212,20 @@ def test_a_hundred_states_are_primers(site, browser, explorer):
                     numbers = [np.nan if value is None else value for value in got]
                     np.testing.assert_allclose(np.array(numbers, float), part[axis].astype(float), rtol=1e-6)
     assert not browser.errors
+
+
+@pages
+def test_a_line_ends_where_a_grid_was_lost(site, browser):
+    """What is no number is left out, on logarithmic axes too: Dist of a lost grid does not fall to the bottom."""
+    browser.open(site / "explore_pde.html")
+    dist = PDEExplorer()._answer.marched.dist
+    wanted = [int(np.isfinite(one).sum()) for one in dist]
+    assert len(set(wanted)) == 3  # two of the three grids were lost
+    paths = browser.page.evaluate(
+        "[...document.querySelectorAll('svg')].map((svg) => "
+        "[...svg.querySelectorAll('path[stroke-linejoin=round]')].map((path) => path.getAttribute('d')))"
+    )
+    assert wanted in [[len(re.findall("[ML]", path)) for path in panel[:3]] for panel in paths]
 
 
 @pages

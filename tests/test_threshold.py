@@ -12,6 +12,7 @@ from primer import Toy, checks, ftcs, grid_threshold
 from primer.schemes.discrete import discrete_steady
 from primer.schemes.grid import Grid
 from primer.study import spectrum, threshold
+from primer.study.lanczos import grows
 from primer.study.spectrum import Parity, depth, fastest, growing, growth, jacobian, rate
 from primer.study.stability import frozen_dt
 from primer.study.threshold import _first_unstable, _quarter_ratio, _sawtooth_ratio, unstable
@@ -362,3 +363,18 @@ def test_bad_input_of_the_spectrum_gets_one_sentence():
         with pytest.raises((TypeError, ValueError)) as caught:
             call()
         assert str(caught.value) == sentence
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_grows_against_all_eigenvalues(seed):
+    """On grids beyond the dense ones, about as many that grow as do not; the oracle is the whole Jacobian."""
+    rng = np.random.default_rng(seed)
+    said = []
+    for _ in range(8):
+        a, n = rng.uniform(-1, 0.95), int(rng.integers(101, 140))
+        toy = Toy(a, (math.pi / n) ** 2 / (1 - a) * rng.uniform(1.2, 2.6))
+        largest = np.linalg.eigvals(jacobian(toy, n)).real
+        largest = largest[np.abs(largest) > 1e-6].max()  # the neutral modes, as rounded
+        said.append(grows(toy, n))
+        assert said[-1] == (largest > 0), (toy, n, largest)
+    assert len(set(said)) == 2

@@ -48,7 +48,9 @@ from primer.exercises.testing_a_pde import (
     check_02_3,
     check_02_4,
 )
+from primer.exercises.what_can_be_saved import ask_10_1, ask_10_2, check_10_1, check_10_2
 from primer.exercises.what_ill_posed_means import ask_01_1, ask_01_2, ask_01_3, check_01_1, check_01_2, check_01_3
+from primer.exercises.write_it_yourself import ask_09_1, ask_09_2, check_09_1, check_09_2
 
 __all__ = [
     "ask_00_1",
@@ -84,6 +86,10 @@ __all__ = [
     "ask_08_1",
     "ask_08_2",
     "ask_08_3",
+    "ask_09_1",
+    "ask_09_2",
+    "ask_10_1",
+    "ask_10_2",
     "check_00_1",
     "check_00_2",
     "check_01_1",
@@ -117,4 +123,8 @@ __all__ = [
     "check_08_1",
     "check_08_2",
     "check_08_3",
+    "check_09_1",
+    "check_09_2",
+    "check_10_1",
+    "check_10_2",
 ]

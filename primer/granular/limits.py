@@ -1,6 +1,6 @@
 """What the growth rates do as |xi| -> infinity, in closed form, for many states at once."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 
 import numpy as np
 
@@ -31,8 +31,8 @@ class Leading:
     limit: np.ndarray
 
 
-def leading(c):
-    """The ``Leading`` behaviour of ``Coefficients`` c.
+def leading(c, search=True):
+    """The ``Leading`` behaviour of ``Coefficients`` c; without the search for it, no coefficient and x of |xi|^2.
 
     Divide the characteristic polynomial (see ``dispersion``) by Gamma, or by T where Gamma = 0:
 
@@ -41,7 +41,7 @@ def leading(c):
       [phi N'^2/(4 rho T (t - A))]^{1/3}, at x - x0 ~ |xi|^{-2/3}. If N(x0) > 0, bounded.
     * otherwise bounded: lambda_3 -> -phi N/Delta.
     """
-    return _incompressible(c) if c.incompressible else _compressible(c)
+    return _incompressible(c) if c.incompressible else _compressible(c, search)
 
 
 def quotient_maximum(n, d, low=-1.0, high=1.0):
@@ -69,7 +69,7 @@ def _incompressible(c):
     return Leading(*(v[()] for v in (np.full(np.shape(c.A), 2.0), coefficient, x, ill, limit)))
 
 
-def _compressible(c):
+def _compressible(c, search):
     d = dispersion(c)
     T_low, T_high = d.T[0] - np.abs(d.T[1]), d.T[0] + np.abs(d.T[1])
     sign = np.where(c.Gamma == 0, np.sign(d.T[0]), np.sign(c.Gamma))
@@ -87,7 +87,7 @@ def _compressible(c):
     drifting &= ~lost
     bounded = ~(quadratic | linear | drifting | lost)
 
-    fast, x2 = fastest(replace(c, Y_phi=0 * c.Y_phi, f_phi=0 * c.f_phi), 1.0)
+    fast, x2 = _quadratic(c, quadratic & search)
     fast = np.where((c.Gamma == 0) & turned, np.inf, fast)
     with np.errstate(divide="ignore", invalid="ignore"):
         limit, x3 = _bounded_limit(c, d, sign, touching, x0)
@@ -101,6 +101,17 @@ def _compressible(c):
         ill_posed=(quadratic | linear | drifting)[()],
         limit=np.where(bounded, limit, np.where(lost, np.nan, np.inf))[()],
     )
+
+
+def _quadratic(c, where):
+    """(growth/|xi|^2, x) of the fastest direction in the states chosen: a search, so of no others (there nan)."""
+    found = np.full((2, *np.shape(where)), np.nan)
+    fast, x = found[0, ...], found[1, ...]
+    if np.any(where):
+        of = {f.name: np.broadcast_to(getattr(c, f.name), fast.shape)[where] for f in fields(c)[:-1]}
+        zero = np.zeros_like(of["A"])
+        fast[where], x[where] = fastest(replace(c, **of | {"Y_phi": zero, "f_phi": zero}), 1.0)
+    return fast, x
 
 
 def least_Delta(c, sign):

@@ -15,6 +15,8 @@ from primer.schemes.passes import passes
 from primer.schemes.slope import PAD, reach, width
 from primer.schemes.whole_rows import Numbers, fused
 
+PIECE = 10**7  # rows times points times stages times steps between two looks up
+
 
 def compilable(problem, n, space):
     """Whether the march can be made by machine code, and NumPy would not be quicker."""
@@ -97,8 +99,25 @@ def _loop(problem, n, derivatives, time, is_complex):
     return _Loop(problem, n, derivatives, time, is_complex)
 
 
-def marched(problem, x, y, space, time, dt, begin, counts, limit, states, depth):
-    """Fill ``states`` and ``depth`` as ``lines.trace`` has them, from the state y of shape (fields, n)."""
+def _pieces(counts, most):
+    """(first run, one past the last, steps that are made, steps to be made by then), of at most so many steps each."""
+    ends, made, run = np.cumsum(counts), 0, 0
+    total = int(ends[-1]) if ends.size else 0
+    while True:
+        until = min(made + most, total)
+        last = len(counts) if until == total else int(np.searchsorted(ends, until)) + 1
+        yield run, last, made, until
+        if until == total:
+            return
+        made, run = until, last - 1
+
+
+def marched(problem, x, y, space, time, dt, begin, counts, limit, states, depth, tell):
+    """Fill ``states`` and ``depth`` as ``lines.trace`` has them, from the state y of shape (fields, n).
+
+    Piece by piece, a tenth of a second or so, between which there is time to ``tell`` the steps and for a Ctrl-C; no
+    bit depends on that.
+    """
     derivatives = tuple((m, space[m]) for m in problem.evolution.orders)
     loop = _loop(problem, x.size, derivatives, time, y.dtype.kind == "c")
     numbers = loop.numbers() if loop.form.clock or loop.calls else None
@@ -111,25 +130,41 @@ def marched(problem, x, y, space, time, dt, begin, counts, limit, states, depth)
         "change": np.zeros_like(start),
         "scratch": np.zeros((loop.scratch, x.size + 2 * loop.reach)),
         "derived": np.zeros((2 * loop.slots, loop.padded)),
-        "dt": np.ascontiguousarray(dt, float),
-        "begin": np.ascontiguousarray(begin, float),
-        "counts": np.ascontiguousarray(counts, np.int64),
         "limit": np.array([limit]),
-        "states": np.full((len(dt), *start.shape), np.nan),
-        "depth": depth,
+        "deep": np.zeros(1),
     }
+    dt, begin = np.ascontiguousarray(dt, float), np.ascontiguousarray(begin, float)
+    counts, found = np.asarray(counts, np.int64), np.full((len(dt), *start.shape), np.nan)
     if numbers:
         numbers.prepare(loop.form, x.size, loop.reach, 1)
         own |= {"scratch": numbers.scratch, "clocks": numbers.clocks}
     book = loop.book.copy()
-    given = {name: address(array) for name, array in own.items()} | {"runs": len(dt)}
+    given = {name: address(array) for name, array in own.items()}
     if numbers:
         given["call"] = numbers.address
     for name, value in given.items():
         book[BOOK[name][0]] = value
-    with np.errstate(all="ignore"):
-        loop.march(address(book))
-    if numbers:
-        numbers.raise_what_was_raised()
-    for state, parts in zip(states, own["states"], strict=True):
+    before = np.cumsum(counts) - counts
+    for first, last, made, until in _pieces(counts, max(1, PIECE // (start.size * stages))):
+        if made:  # the last run of the piece before goes on, if it was not lost
+            if not np.isfinite(depth[first]):
+                break
+            own["deep"][0], found[first], depth[first] = depth[first], np.nan, np.inf
+        here = slice(first, last)
+        part = {
+            "dt": dt[here],
+            "begin": begin[here],
+            "firsts": np.clip(made - before[here], 0, counts[here]),
+            "counts": np.clip(until - before[here], 0, counts[here]),
+            "states": found[here],
+            "depth": depth[here],
+        }
+        for name, value in ({name: address(array) for name, array in part.items()} | {"runs": last - first}).items():
+            book[BOOK[name][0]] = value
+        with np.errstate(all="ignore"):
+            loop.march(address(book))
+        if numbers:
+            numbers.raise_what_was_raised()
+        tell(until)
+    for state, parts in zip(states, found, strict=True):
         state[:] = back(parts, state.dtype)

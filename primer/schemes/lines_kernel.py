@@ -9,7 +9,8 @@ from primer.schemes.slope import Slope, entries
 BOOK = entries(
     (
         "y", "k", "at_stage", "change", "scratch", "fixed", "numbers", "clocks", "matrices", "derived",
-        "starts", "places", "weights", "nodes", "dt", "begin", "counts", "limit", "states", "depth", "call",
+        "starts", "places", "weights", "nodes", "dt", "begin", "firsts", "counts", "deep",
+        "limit", "states", "depth", "call",
     ),
     ("n", "padded", "stages", "runs"),
 )  # fmt: skip
@@ -18,17 +19,18 @@ BOOK = entries(
 def lines_kernel(evolution, stencils, lanes, form, fused):
     """The text of ``march(book)``; ``stencils`` is None where derivatives are products with matrices.
 
-    It takes counts[m] steps dt[m] for m = 0, 1, ..., as long as every |number| <= limit at each stage of each step, so
-    that no product is beyond the largest number. What it is given:
+    It takes the steps firsts[m] ... counts[m] - 1 of dt[m] for m = 0, 1, ..., as long as every |number| <= limit at
+    each stage of each step, so that no product is beyond the largest number. What it is given:
 
     y                  (rows, n) the state, overwritten; complex fields have two rows
     k, at_stage        (stages, rows, n) slopes, and the rows with ghost cells at which they are taken
-    change             (rows, n) zeros: what rounding took from y, and goes into the next change (Kahan's sum)
+    change             (rows, n) zeros at first: what rounding took from y, and goes into the next change (Kahan's sum)
     starts, places,    the table A of the step by its entries that are not 0: those of stage s are starts[s] ...
     weights            starts[s + 1] - 1; a last "stage" has the weights b
     nodes              (stages,) sums of the lines of A
     begin              (m,) the times at which the runs of steps begin
     states             (m, rows, n) filled with the states after each run of steps; those not reached are left alone
+    deep               (1,) the depth so far, 0 at first
     depth              (m,) filled with the integral of max(0, -min u) to those times, by the rectangle rule
     """
     slope = Slope(evolution, stencils, "double", BOOK, lanes, 1, form, fused)
@@ -50,8 +52,9 @@ def _march(slope):
     starts, places, weights = slope.book("starts"), slope.book("places"), slope.book("weights")
     limit = lanes.splat(one.read(slope.book("limit"), "0"))
     dts, begin, counts, nodes = (slope.book(name) for name in ("dt", "begin", "counts", "nodes"))
+    firsts = slope.book("firsts")
     states, depth = slope.book("states"), slope.book("depth")
-    deep = write.variable("double", "0.0")
+    deep = slope.book("deep")
 
     def combined(stage, row, base, dt, few, i):
         """base + sum of dt A[stage, j] k_j at the points of index i."""
@@ -74,11 +77,11 @@ def _march(slope):
         write.leave_if(write.value(f"call i1 @llvm.vector.reduce.or.v{lanes.width}i1({lanes.truth} {beyond})"))
 
     with write.loop("0", runs) as (m, _, _):
-        dt, count, since = (
+        dt, first, count, since = (
             write.load(kind, write.at(kind, base, m))
-            for kind, base in (("double", dts), ("i64", counts), ("double", begin))
+            for kind, base in (("double", dts), ("i64", firsts), ("i64", counts), ("double", begin))
         )
-        with write.loop("0", count) as (step, _, _):
+        with write.loop(first, count) as (step, _, _):
             with write.loop("0", n, 1, [("double", "0.0")]) as (i, seen, then):
                 then[0] = one.choose("olt", one.read(y[0], i), seen[0])
             more = one.operation("fmul", dt, seen[0])

@@ -77,7 +77,7 @@ class Reference:
         return interpolate(self.u, x), interpolate(self.v, x)
 
 
-def reference(toy: Toy | PDE, t: ArrayLike, tol: float = 1e-10) -> Any:
+def reference(toy: Toy | PDE, t: ArrayLike, tol: float = 1e-10, progress: bool = True) -> Any:
     """The solution of the toy system at the times t with an error of at most about ``tol``, or a refusal.
 
     Fourier collocation in space and the fixed step ``RK8`` in time. The march is made twice, the second time with at
@@ -97,6 +97,7 @@ def reference(toy: Toy | PDE, t: ArrayLike, tol: float = 1e-10) -> Any:
                    two grids in agreement, and growth rates that stay bounded along the way, or a refusal
     t              a time or a sequence of times >= 0, in any order, repeated or not
     tol : float    the largest error of u and v asked for, 128 units in the last place of |a| + 2 at least, below 1
+    progress       whether to show a progress bar for each march of more than two seconds, on a terminal
 
     Returns
     -------
@@ -114,7 +115,7 @@ def reference(toy: Toy | PDE, t: ArrayLike, tol: float = 1e-10) -> Any:
     True
     """
     if isinstance(toy, PDE):
-        return solve(toy, _times(t), real("tol", tol, above=0, below=1))
+        return solve(toy, _times(t), real("tol", tol, above=0, below=1), progress)
     instance("toy", toy, Toy)
     t = _times(t)
     tol = real("tol", tol, above=0, below=1)
@@ -126,7 +127,7 @@ def reference(toy: Toy | PDE, t: ArrayLike, tol: float = 1e-10) -> Any:
         touch = _touch(toy, max(_LOOK_AHEAD, end))
         if end > touch:
             raise _past(toy, end, tol, touch, _WHY)
-    states, error, good, below = _best(toy, times, tol)
+    states, error, good, below = _best(toy, times, tol, progress)
     if below and toy.eps > 0 and toy.a >= _NEVER and end > (touch := _touch(toy, end)):
         raise _past(toy, end, tol, touch, _WHY)
     if good < len(times):
@@ -184,11 +185,11 @@ def _touch(toy, until):
     return reached
 
 
-def _best(toy, times, tol):
+def _best(toy, times, tol, progress=False):
     """(states, error, how many times are good, whether u < 0 was met), with as many points as it takes."""
     most, first = 0, _first(tol)
     for rung in range(first, len(_POINTS) - 1):
-        states, error, below = _attempt(toy, times, tol / 4 ** (rung - first), rung)
+        states, error, below = _attempt(toy, times, tol / 4 ** (rung - first), rung, progress)
         most = max(most, _good(error, tol))
         if most == len(times):
             break
@@ -210,7 +211,7 @@ def _round_off(toy):
     return _ROUND_OFF * (abs(toy.a) + 2)
 
 
-def _attempt(toy, times, tol, rung):
+def _attempt(toy, times, tol, rung, progress=False):
     """(states (m, 2, n), error (m,), whether u < 0) at ascending times, on a rung's n points, judged by the next."""
     n, finer = _POINTS[rung], _POINTS[rung + 1]
     step, finer_step = _step(toy, tol, n), _step(toy, tol, finer)
@@ -220,14 +221,14 @@ def _attempt(toy, times, tol, rung):
     gaps[1:] -= times[:-1]
     few = np.ceil(gaps / step)
     many = np.maximum(np.ceil(_MORE_STEPS * few), np.ceil(gaps / finer_step))
-    states, _ = _trace(toy, n, gaps, few)
-    judge, depth = _trace(toy, finer, gaps, many)
+    states, _ = _trace(toy, n, gaps, few, progress)
+    judge, depth = _trace(toy, finer, gaps, many, progress)
     apart = np.abs(states @ transfer(n, finer) - judge).max(axis=(1, 2))
     return states, _SAFETY * apart + _round_off(toy), depth[-1] != 0
 
 
-def _trace(toy, n, gaps, counts):
-    return trace(toy, n, FOURIER, RK8, gaps / np.maximum(counts, 1), counts.astype(np.int64))
+def _trace(toy, n, gaps, counts, progress):
+    return trace(toy, n, FOURIER, RK8, gaps / np.maximum(counts, 1), counts.astype(np.int64), progress)
 
 
 def _step(toy, tol, n):

@@ -63,8 +63,8 @@ class Solution:
         )
 
 
-def solve(problem: Any, t: np.ndarray, tol: float) -> Solution:
-    """The :class:`Solution` at the times t >= 0.
+def solve(problem: Any, t: np.ndarray, tol: float, progress: bool = False) -> Solution:
+    """The :class:`Solution` at the times t >= 0; with ``progress`` each march of over two seconds has a bar.
 
     Fourier collocation and ``RK8`` on 16, 32, ... 512 points with at most 0.7 of the stable step, until 3 times the
     difference of two successive grids is below tol; the finer one is the answer. Before that the frozen equations about
@@ -77,9 +77,9 @@ def solve(problem: Any, t: np.ndarray, tol: float) -> Solution:
     """
     end = float(t.max())
     times = np.unique(np.concatenate([t, np.linspace(0, end, _LOOKS + 1)]))
-    coarse, horizon = _march(problem, _POINTS[0], times), 0.0
+    coarse, horizon = _march(problem, _POINTS[0], times, progress), 0.0
     for n in _POINTS[1:]:
-        fine = _march(problem, n, times)
+        fine = _march(problem, n, times, progress)
         apart = np.abs(coarse @ transfer(coarse.shape[-1], n) - fine).max(axis=(1, 2))
         size = 1 + np.abs(fine).max(axis=(1, 2))
         error = _SAFETY * apart + _ROUND_OFF * size
@@ -105,7 +105,7 @@ def _past(times, tol, until, why):
     )
 
 
-def _march(problem, n, times):
+def _march(problem, n, times, progress):
     """(m, fields, n) the states at ascending times on n points; not a number where the march is lost."""
     end = times[-1]
     # Half the step for twice the points, at least, so that the difference of two grids shows the error in time too.
@@ -114,7 +114,7 @@ def _march(problem, n, times):
     if not (gaps / step).sum() <= _MOST:
         raise ValueError(f"t must be <= {_MOST * step:.3g}, {_MOST} steps on {n} points, got {end:g}")
     counts = np.ceil(gaps / step * (1 - 1e-12)).astype(np.int64)
-    states, _ = trace(problem, n, FOURIER, RK8, gaps / np.maximum(counts, 1), counts)
+    states, _ = trace(problem, n, FOURIER, RK8, gaps / np.maximum(counts, 1), counts, progress)
     return states
 
 

@@ -103,7 +103,7 @@ def _ftcs(problem, n, t_end, whole=5.0):
 def _lines(problem, n, t_end, space, time, whole=5.0):
     dt = lines_step(problem, n, whole, space, time)
     _steps(n, dt, t_end)
-    run = march_lines(problem, n, dt, t_end, space, time)
+    run = march_lines(problem, n, dt, t_end, space, time, progress=False)
     return run.x, run.final, run.dt
 
 

@@ -13,6 +13,7 @@ from primer.checks import instance, integer, real, sequence
 from primer.problems.toy import Toy
 from primer.schemes.grid import grids
 from primer.schemes.marching import a_problem
+from primer.schemes.progress import each
 from primer.study.contestants import Method, contestants
 from primer.study.truth import solution
 
@@ -67,6 +68,7 @@ def work_precision(
     patience: float = 1.0,
     repeats: int = 5,
     exact: Callable | None = None,
+    progress: bool = True,
 ) -> WorkPrecision:
     """Run every method through its knobs; compare the errors at t_end and the wall times.
 
@@ -80,6 +82,7 @@ def work_precision(
     repeats : int      runs of which the median time counts, after one more that compiles what is to be compiled (py-pde
                        compiles each time); one run must do if it takes longer than ``patience``
     exact              ``exact(x, t)``: the fields at the points x and the time t, against which errors are measured
+    progress           whether to show a bar of methods, on a terminal, after two seconds
 
     Returns
     -------
@@ -112,7 +115,7 @@ def work_precision(
     methods = _methods(contestants(problem=toy, t_end=t_end) if methods is None else methods)
     truth, doubt = solution(toy, t_end, exact)
     points, refusal = [], None
-    for method in methods:
+    for method in each(methods, "method", progress):
         for knob in method.knobs:
             try:
                 _prepare(method, toy, knob)
@@ -147,12 +150,13 @@ def cost_against_n(
     ns: Iterable[int] = (50, 100, 200, 400, 800, 1600, 3200),
     methods: Iterable[Method] | None = None,
     seconds: float = 0.05,
+    progress: bool = True,
 ) -> tuple[Point, ...]:
     """Wall time to t_end on n points, for the methods whose knob is n, with steps both stable and accurate enough.
 
     ``toy`` is the problem, any that can be marched (default: the toy system with a = 1.5, eps = 0.01). A stretch of the
     march that takes at least half of ``seconds`` is timed and scaled to t_end. A method that refuses a grid is taken no
-    further.
+    further. ``progress`` is that of ``work_precision``.
 
     Returns
     -------
@@ -170,7 +174,8 @@ def cost_against_n(
     t_end, seconds = real("t_end", t_end, above=0), real("seconds", seconds, above=0)
     ns = grids("ns", sequence("ns", ns, "grids, such as [50, 100]"))
     refusal = None
-    for method in _methods(contestants(with_py_pde=False, problem=toy, t_end=t_end) if methods is None else methods):
+    methods = _methods(contestants(with_py_pde=False, problem=toy, t_end=t_end) if methods is None else methods)
+    for method in each(methods, "method", progress):
         for n in ns if method.by_points else ():
             span = min(t_end, 5.0 / n**2)
             try:

@@ -18,6 +18,7 @@ import numpy as np
 from primer.arithmetic import arithmetic
 from primer.checks import instance, integer
 from primer.problems.toy import Toy
+from primer.schemes.progress import step_bar
 from primer.schemes.record import Log, plan
 from primer.schemes.run import Run
 
@@ -35,6 +36,7 @@ def exact_march(
     digits: int | None = None,
     record_every: int | None = None,
     blow_up_at: float = 1e3,
+    progress: bool = True,
 ) -> Run:
     """March ``toy`` as ``ftcs`` does, by the scheme of section A2.2.2, with no round-off to speak of.
 
@@ -53,7 +55,8 @@ def exact_march(
     toy                         a ``Toy``
     n, dt, t_end                grid points >= 4, step > 0, end >= 0
     digits : int                decimal digits after the point, 2 to 1900; with None as many as are enough
-    record_every, blow_up_at    as for ``ftcs``
+    record_every, blow_up_at,
+    progress                    as for ``ftcs``
 
     Returns
     -------
@@ -72,10 +75,13 @@ def exact_march(
     asked = plan(n, dt, t_end, record_every, (), None, blow_up_at, np.float64, None)
     asked.refuse_if_large(fields=2)
     if digits is not None:
-        return _march(toy, asked, integer("digits", digits, least=2, most=MOST_DIGITS), enough=False)
+        digits = integer("digits", digits, least=2, most=MOST_DIGITS)
+        with step_bar(asked.steps, progress) as tell:
+            return _march(toy, asked, digits, False, tell)
     digits = _FIRST
     while True:
-        run = _march(toy, asked, digits, enough=True)
+        with step_bar(asked.steps, progress) as tell:
+            run = _march(toy, asked, digits, True, tell)
         if run is not None:
             return run
         if digits == MOST_DIGITS:
@@ -86,7 +92,7 @@ def exact_march(
         digits = min(2 * digits, MOST_DIGITS)
 
 
-def _march(toy, asked, digits, enough):
+def _march(toy, asked, digits, enough, tell):
     """The run; None if digits must be ``enough`` and round-off has come near."""
     numbers, log = _Numbers(toy, asked, digits), Log(asked, np.array(toy.steady(asked.grid.x)))
     half = asked.grid.n // 2 + 1
@@ -107,6 +113,7 @@ def _march(toy, asked, digits, enough):
             if enough and lost + _SPARE > digits:
                 return None
             log.watch(step + done, state)
+            tell(step + done)
     except KeyboardInterrupt:
         interrupted = True
     return log.run(toy, state, interrupted)

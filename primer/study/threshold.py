@@ -4,7 +4,8 @@ import math
 from dataclasses import dataclass
 
 from primer.problems.toy import Toy
-from primer.study.spectrum import Mode, depth, fastest, growth
+from primer.study.lanczos import grows
+from primer.study.spectrum import Mode, fastest
 
 _LARGEST = 10**6  # points of the finest grid whose spectrum is worth computing
 _COARSE = 32  # grids up to here are looked at one by one: there Q need not grow with n
@@ -67,7 +68,7 @@ def grid_threshold(a: float, eps: float = 0.01) -> GridThreshold:
 
 def unstable(toy: Toy, n: int) -> bool:
     """Whether some perturbation of the discrete steady state grows on n points."""
-    return depth(toy, n) > 0 and growth(toy, n) > 0
+    return grows(toy, n)
 
 
 def _first_unstable(toy, frozen):

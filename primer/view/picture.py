@@ -9,6 +9,7 @@ from matplotlib.legend import Legend
 from primer.view.style import new_figure, styled
 
 _DPI = 96
+_RIGHT = 0.12  # inches: the layout is made once, and the last label of another answer may be longer
 
 
 class Picture:
@@ -22,6 +23,7 @@ class Picture:
         with styled():
             self.figure, axes = new_figure(**layout)
         self.figure.set_dpi(_DPI)
+        self.figure.get_layout_engine().set(rect=(0, 0, 1 - _RIGHT / layout["width"], 1))
         self.axes = np.ravel(axes)
         self._frame = self._background = None
 

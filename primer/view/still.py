@@ -5,6 +5,8 @@ from dataclasses import dataclass, field
 from html import escape
 
 import numpy as np
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
 
 from primer.view.picture import png
 from primer.view.style import new_figure, styled
@@ -60,6 +62,23 @@ def still(alt, *panels, height=3.4, width=None):
     return Still(
         str(alt), render({"columns": len(panels), "width": width or 1 + 4.0 * len(panels), "height": height}, draw)
     )
+
+
+def picture(figure, alt):
+    """A :class:`Still` of a matplotlib figure, as ``new_figure`` makes it; ``alt`` says in words what there is to see.
+
+    Raises
+    ------
+    TypeError    if figure is not a matplotlib figure
+    """
+    if not isinstance(figure, Figure):
+        raise TypeError(f"figure must be a matplotlib figure, got {type(figure).__name__}")
+    if not hasattr(figure.canvas, "buffer_rgba"):
+        FigureCanvasAgg(figure)
+    figure.set_dpi(_DPI)
+    with styled():
+        figure.canvas.draw()
+    return Still(str(alt), png(figure.canvas, compress_level=9))
 
 
 def render(layout, draw):

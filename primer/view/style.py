@@ -31,6 +31,11 @@ def styled():
         yield
 
 
+def use_style():
+    """Let all that matplotlib draws from now on look like this package's pictures: for a notebook, called by hand."""
+    matplotlib.style.use(["default", _STYLE])
+
+
 def new_figure(rows=1, columns=2, width=9.0, height=3.4, title=None, per_subplot_kw=None, **options):
     """(figure, axes): a matplotlib figure of its own, outside pyplot, with a grid of axes (sizes in inches).
 

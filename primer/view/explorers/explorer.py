@@ -229,8 +229,8 @@ class Explorer:
 
 
 _STYLE = """<style>
-.primer-explorer { max-width: 1100px; }
-.primer-explorer .primer-picture { width: 100%; }
+.primer-explorer { max-width: 1100px; } .primer-shown { overflow-x: auto; }
+.primer-shown .primer-picture { min-width: 640px; }
 .primer-stale { opacity: 0.25; }
 .primer-said { padding: 4px 10px; border-left: 4px solid #7d858c; line-height: 1.5; min-height: 3em; }
 .primer-alert { border: 2px solid #c0392b; border-left-width: 8px; min-height: 0; }
@@ -240,11 +240,8 @@ _STYLE = """<style>
 def _outputs():
     """(verdict, picture, state) as widgets."""
     said = widgets.HTML(layout=widgets.Layout(margin="4px 0", height="auto"))
-    image = widgets.HTML(layout=widgets.Layout(max_width="100%"))  # a widgets.Image has no alternative text
-    copy = widgets.Text(
-        description="state",
-        tooltip="Copy this to come back here; paste one and press Enter to go there",
-        continuous_update=False,
-        layout=widgets.Layout(width="auto"),
-    )
+    # A widgets.Image has no alternative text. Never stretched, which is soft; in a narrow window it scrolls sideways.
+    image = widgets.HTML(layout=widgets.Layout(max_width="100%", margin="2px 0")).add_class("primer-shown")
+    tip, wide = "Copy this to come back here; paste one and press Enter to go there", widgets.Layout(width="auto")
+    copy = widgets.Text(description="state", tooltip=tip, continuous_update=False, layout=wide)
     return said, image, copy

@@ -34,7 +34,7 @@
     return made;
   }
 
-  const SCALES = { linear: (x) => x, log: (x) => (x > 0 ? Math.log10(x) : -400), asinh: (x, width) => Math.asinh(x / width) };
+  const SCALES = { linear: (x) => x, log: (x) => (x > 0 || Number.isNaN(x) ? Math.log10(x) : -400), asinh: (x, width) => Math.asinh(x / width) };
 
   /** The place of a number on an axis, from 0 to 1. */
   function along(axis) {
@@ -108,6 +108,7 @@
   function marker(look, x, y, layer) {
     const r = look.size * 0.65, fill = look.face || "none";
     if (look.marker === "s") node("rect", { x: x - r, y: y - r, width: 2 * r, height: 2 * r, fill, stroke: look.edge }, layer);
+    else if (look.marker === "X") node("path", { d: `M${x - r} ${y - r}L${x + r} ${y + r}M${x - r} ${y + r}L${x + r} ${y - r}`, stroke: look.face, "stroke-width": r * 0.7 }, layer);
     else node("circle", { cx: x, cy: y, r, fill, stroke: look.edge }, layer);
   }
 

@@ -158,7 +158,8 @@ def equations_page(links):
     text = (
         "<h1>The paper's equations by number</h1><p>Numbers are those of arXiv:1610.05135; a label is what the source "
         "of the paper calls the equation, and what the package's documentation says. Beside them, what was found of "
-        'the claims that rest on them.</p><div class="wide" tabindex="0" role="group" aria-label="Equations"><table>'
+        'the claims that rest on them.</p><div class="wide" tabindex="0" role="group" aria-label="Equations">'
+        '<table class="claimed">'
         '<thead><tr><th scope="col">number</th><th scope="col">label</th><th scope="col">claims</th></tr></thead>'
         f"<tbody>{''.join(rows)}</tbody></table></div>"
     )
@@ -175,6 +176,6 @@ def claims_page(links):
     names = "".join(f'<th scope="col">{name}</th>' for name in ("where", "the paper says", "computed", "verdict"))
     text = (
         '<h1>What the paper claims, and what became of it</h1><div class="wide" tabindex="0" role="group" '
-        f'aria-label="Claims"><table><thead><tr>{names}</tr></thead><tbody>{rows}</tbody></table></div>'
+        f'aria-label="Claims"><table class="claimed"><thead><tr>{names}</tr></thead><tbody>{rows}</tbody></table></div>'
     )
     return framed("Claims", text, links, "claims.html")
