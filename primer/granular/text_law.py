@@ -71,9 +71,8 @@ class TextLaw:
             try:
                 tree = parse_expression(text)
             except ValueError as error:
-                raise ValueError(
-                    f"{name} must be a text in p, phi and I that can be read: {str(error).splitlines()[0]}"
-                ) from None
+                why = str(error).splitlines()[0]
+                raise ValueError(f"{name} must be a text in p, phi and I, got {shown(text)}: {why}") from None
             used |= _check(name, tree, values)
             trees.append(tree)
         unused = sorted(set(values) - used)
