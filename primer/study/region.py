@@ -6,17 +6,17 @@ import math
 from collections.abc import Mapping
 from concurrent.futures import Executor
 from dataclasses import dataclass
-from fractions import Fraction
 from itertools import pairwise
 from os import PathLike
 from typing import Any
 
 import numpy as np
 
-from primer.analysis.outcome import Kind, Verdict
+from primer.analysis.outcome import Verdict
 from primer.checks import instance, integer, real, shown
 from primer.study.region_edges import edges, isolated
-from primer.study.region_fill import Asked, as_fraction, filled, identities
+from primer.study.region_fill import Asked, filled
+from primer.study.region_pieces import pieces_of
 from primer.study.region_subject import KINDS, Subject, subject
 from primer.study.sweep import an_executor
 from primer.study.table import Table
@@ -24,31 +24,6 @@ from primer.study.table import Table
 _POINTS = 10**6  # of a grid
 _N = {1: 201, 2: 101}
 _COLUMNS = ("kind", "exponent", "coefficient", "bound", "loss")
-
-
-@dataclass(frozen=True)
-class Piece:
-    """All points of a region with one kind, exponent and loss.
-
-    Attributes
-    ----------
-    kind, exponent, loss    those of :class:`primer.Verdict`
-    share                   of the points of the grid
-    where                   {name: value} of one of its points at which the verdict was computed
-    verdict                 the :class:`primer.Verdict` there
-    coefficient, bound      (least, largest) at the points at which the verdict was computed
-    computed                at how many that was
-    """
-
-    kind: Kind
-    exponent: Fraction | float
-    loss: Fraction | float
-    share: float
-    where: dict
-    verdict: Verdict
-    coefficient: tuple
-    bound: tuple
-    computed: int
 
 
 @dataclass(frozen=True, eq=False)
@@ -184,7 +159,7 @@ def region(
     kind = np.array([*map(str, KINDS)], dtype=object)[np.nan_to_num(whole[..., 0], nan=2).astype(int)]
     exponent = _numbers(whole[..., 1], whole[..., 0] == 2)
     loss = _numbers(whole[..., 2], whole[..., 0] == 2)
-    pieces = _pieces(of, points, whole, rows)
+    pieces = pieces_of(of, points, whole, rows)
     boundaries, error, changes = lines.told()
     if len(names) == 1:
         boundaries, error = _joined(boundaries, error, [place[names[0]] for place, _ in alone])
@@ -237,20 +212,3 @@ def _joined(boundaries, error, alone):
     new = [x for x in alone if not (np.abs(boundaries - x) <= 1e-9 * (1 + abs(x))).any()]
     order = np.argsort([*boundaries, *new])
     return np.array([*boundaries, *new])[order], np.array([*error, *(0.0 for _ in new)])[order]
-
-
-def _pieces(of, points, whole, rows):
-    places, values = np.array(list(rows)), np.array(list(rows.values()))
-    same_as, found = identities(values), []
-    for identity in np.unique(whole[~np.isnan(whole).any(axis=-1)], axis=0):
-        mine = (same_as == identity).all(axis=1)
-        some, place = values[mine], tuple(places[mine][mine.sum() // 2])
-        coefficient, bound = (tuple(map(float, (c.min(), c.max()))) for c in (some[:, 2], some[:, 3]))
-        exponent, loss = as_fraction(float(some[0, 1])), as_fraction(float(some[0, 4]))
-        share = float((whole == identity).all(axis=-1).mean())
-        here = dict(zip(of.names, map(float, points[place]), strict=True))
-        verdict = of.verdict(points[place])
-        found.append(
-            Piece(KINDS[int(identity[0])], exponent, loss, share, here, verdict, coefficient, bound, int(mine.sum()))
-        )
-    return tuple(sorted(found, key=lambda piece: -piece.share))
