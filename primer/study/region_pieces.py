@@ -38,7 +38,7 @@ class Piece:
 
 
 def pieces_of(of, points, whole, rows):
-    """Each ``Piece`` of a grid, the largest first: identities (.., 3) at its points, rows {place: verdict's numbers}."""
+    """The pieces of a grid, largest first: identities (.., 3) at its points, rows {place: verdict's numbers}."""
     places, values = np.array(list(rows)), np.array(list(rows.values()))
     same_as, found = identities(values), []
     for identity in np.unique(whole[~np.isnan(whole).any(axis=-1)], axis=0):
