@@ -96,8 +96,9 @@ def _with_operators(symbol):
     fastest = max(found, key=lambda one: Law(one.exponent, one.coefficient))
     if fastest.kind != Kind.WELL_POSED:
         return fastest
-    highest, lost = max(found, key=lambda one: one.bound), [one.loss for one in found]
-    lost = math.nan if any(map(math.isnan, lost)) else max(lost)
+    highest = max(found, key=lambda one: one.bound)
+    losses = [one.loss for one in found]
+    lost = math.nan if any(map(math.isnan, losses)) else max(losses)
     told = {"bound": highest.bound, "unstable": highest.unstable, "reason": highest.reason, "loss": lost}
     return replace(fastest, **told)
 
