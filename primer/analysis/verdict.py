@@ -8,9 +8,10 @@ from typing import Any
 import mpmath as mp
 import numpy as np
 
-from primer.analysis.directions import max_growth
+from primer.analysis.directions import MaxGrowth, max_growth
 from primer.analysis.drift import BEYOND, worst_law
 from primer.analysis.each import each
+from primer.analysis.factors import factors
 from primer.analysis.fitted import computed
 from primer.analysis.laws import NotPolynomialError, exact_symbol
 from primer.analysis.loss import loss
@@ -19,7 +20,7 @@ from primer.analysis.poles import of_law, on_curves, undetermined
 from primer.analysis.puiseux import branches
 from primer.analysis.quadratic import quadratic
 from primer.analysis.roots import DIGITS
-from primer.analysis.scales import scales
+from primer.analysis.scales import homogeneity, scales
 from primer.analysis.supremum import along_line, exact_growth, in_plane, rate, ray
 from primer.analysis.symmetry import reduced
 
@@ -152,14 +153,15 @@ def _power(q):
 def _along_line(symbol, real):
     found = []
     for sign in (1,) if real else (1, -1):
-        found.append((branches(_on_line(symbol, sign))[0].law, sign))
+        found += [(branches(P)[0].law, sign) for P in _on_line(symbol, sign)]
     law, sign = max(found, key=lambda item: (item[0], item[1]))
     return law, (float(sign),), Fraction(0), ""
 
 
 def _on_line(symbol, sign):
+    """The factors of det M as polynomials in lambda and k = xi > 0, or -xi."""
     with mp.workdps(DIGITS):
-        return {(n, a): c * sign**a for (n, a, _), c in symbol.determinant.items()}
+        return [{(n, a): c * sign**a for (n, a, _), c in part.items()} for part in factors(symbol.determinant)]
 
 
 def _supremum(symbol, law, real):
@@ -171,8 +173,11 @@ def _supremum(symbol, law, real):
         if max(P, default=(0, 0))[0] == max(D)[0]:
             known.append((float(rate(P, mp.mpf(0))), 0.0))
     known.append((of_law(law), math.inf))
+    if symbol.dim == 2 and (power := homogeneity(D)) is not None and power > 0:
+        return 0.0, 0.0  # growth is |xi|^power times that of the direction, which is not positive: 0 as |xi| -> 0
     if symbol.dim == 1:
-        found = [along_line(_on_line(symbol, sign), real, known) for sign in ((1,) if real else (1, -1))]
+        lines = [P for sign in ((1,) if real else (1, -1)) for P in _on_line(symbol, sign)]
+        found = [along_line(P, real, known) for P in lines]
         return max(found, key=lambda item: item[0])
     known.insert(0, (of_law(worst_law(D, real, inward=True).law), 0.0))
     known.append(on_curves(D))
@@ -184,7 +189,11 @@ def _in_plane(symbol, real):
     D, pencil = symbol.determinant, symbol.pencil()
     far = [math.exp(s) for angle in (0.3, 1.9) for s, _, _ in scales(ray(D, angle))]  # past all scales of the equations
     k = max([1.0, *far]) * np.array([1e5, 1e7])
-    best = max_growth(pencil, k)
+    if homogeneity(D) is not None:  # the same directions are the fastest at each |xi|
+        angle = float(max_growth(pencil, k[:1]).angle[0])
+        best = MaxGrowth(k, k, np.outer([math.cos(angle), math.sin(angle)], [1, 1]))
+    else:
+        best = max_growth(pencil, k)
     worst = worst_law(D, real, best.angle)
     seen = [max(exact_growth(symbol, xi), 0.0) for xi in (k * best.direction).T]  # without rounding errors
     law = worst.law
