@@ -3,14 +3,17 @@
 Second routes: the limits in closed form, runs just below and just above them, and the same problem as an object.
 """
 
+import math
 import warnings
 
 import numpy as np
 import pytest
 
 from primer import EULER, FOURIER, PDE, RK4, RK8, Toy, ftcs, march_lines, refine, stable_dt
+from primer.schemes.by_transforms import slope_by_transforms, step_by_products
 from primer.schemes.jacobian import rates
 from primer.schemes.limit import factor, largest_step
+from primer.schemes.marching import grid_of, slope_of
 from primer.study.stability import tame_dt
 
 HEAT = PDE("u_t = u_xx", {"u": "sin(x)"})
@@ -126,3 +129,34 @@ def test_the_toys_two_routes_to_its_step():
     assert not march_lines(toy, 32, 0.95 * limit, 400 * limit, time=RK4).blew_up
     assert march_lines(toy, 32, 1.3 * limit, 4000 * limit, time=RK4).blew_up
     assert largest_step(np.array([-1.0, 0.0, 1.0]), EULER) == 2.0
+
+
+@pytest.mark.parametrize("n", [194, 195, 256])
+@pytest.mark.parametrize(
+    "problem",
+    [
+        Toy(1.5, 0.1),
+        PDE(
+            "u_t = -u_xxxx/9 - u*u_x + sin(x+t)/3; v_t = (u*v)_x + v_xxx/7",
+            {"u": "9 + cos(x)", "v": "sin(2*x)"},
+            period=5,
+        ),
+        PDE("u_t = i*u_xx/2 + i*abs(u)^2*u", {"u": "exp(i*x) + 2"}),
+    ],
+    ids=["toy", "two orders", "complex"],
+)
+def test_one_transform_for_all_derivatives_is_one_each(problem, n):
+    """``slope_by_transforms`` against the derivatives one by one, and the step by products against that by sums."""
+    grid = grid_of(problem, n)
+    y = np.array(problem.initial(grid.x))
+    alone = slope_of(problem, grid.x, lambda f, m: FOURIER[m](f, grid.h))
+    at_once = slope_by_transforms(problem, grid.x, FOURIER, y.dtype.kind == "c")
+    for _ in range(2):  # the second time with another state
+        expected, found = alone(y, 0.3), at_once(y, 0.3)
+        assert np.abs(found - expected).max() <= 1e-9 * np.abs(expected).max()
+        y = y + 1e-4 * np.cos(3 * math.tau * grid.x / grid.period) + 0.1
+    lost = np.zeros_like(y)
+    for time in (RK4, RK8):
+        sums = time.exact_step(lambda y, t: -y * t, y, lost, 0.1, 0.2)
+        products = step_by_products(time, y)(lambda y, t: -y * t, y, lost, 0.1, 0.2)
+        assert np.abs(sums[0] - products[0]).max() < 1e-13 * np.abs(y).max()

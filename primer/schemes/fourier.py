@@ -19,7 +19,7 @@ import numpy as np
 from primer.equations.terms import DERIVATIVE
 from primer.types import ArrayLike, Numbers
 
-MATRIX_UP_TO = 128  # points up to which a product with a matrix costs less than the fast Fourier transforms it replaces
+MATRIX_UP_TO = 192  # points up to which a product with a matrix costs less than the fast Fourier transforms it replaces
 
 
 @dataclass(frozen=True)

@@ -14,7 +14,9 @@ from primer.checks import affordable, instance, real, shown
 from primer.compiled import able
 from primer.problems.toy import Toy
 from primer.schemes.block import of_text
-from primer.schemes.fourier import Fourier
+from primer.schemes.by_transforms import slope_by_transforms, step_by_products
+from primer.schemes.exponential import Exponential, exponential_march
+from primer.schemes.fourier import MATRIX_UP_TO, Fourier
 from primer.schemes.grid import CENTRAL, Grid, Stencil
 from primer.schemes.lines_block import compilable, marched
 from primer.schemes.marching import a_problem, fields_of, grid_of, orders_of, slope_of
@@ -53,7 +55,7 @@ class Lines:
     dt: float
     t: float
     space: Space = field(repr=False)
-    time: RungeKutta
+    time: RungeKutta | Exponential
     x: np.ndarray = field(repr=False)
     final: tuple[np.ndarray, ...] = field(repr=False)
 
@@ -73,7 +75,7 @@ def march_lines(
     dt: float,
     t_end: float,
     space: Space = CENTRAL,
-    time: RungeKutta = RK4,
+    time: RungeKutta | Exponential = RK4,
     progress: bool = True,
 ) -> Lines:
     """March ``problem`` to t_end on n periodic points, with the derivatives ``space`` and the step ``time``.
@@ -85,7 +87,8 @@ def march_lines(
     dt : float   the largest step; the march takes ceil(t_end/dt) equal ones and so ends at t_end itself
     t_end        the end, t_end >= 0
     space        derivative -> stencil: ``CENTRAL``, ``CENTRAL_4``, ``CENTRAL_6`` or ``FOURIER``
-    time         ``RK4`` or ``RK8``
+    time         ``RK4`` or ``RK8``; or ``ETDRK4``, whose step may be far longer where the equation is stiff, for a
+                 problem with a text and ``FOURIER``
     progress     whether to show a progress bar for a march of more than two seconds, on a terminal
 
     Returns
@@ -107,11 +110,16 @@ def march_lines(
     a_problem("problem", problem, ("initial", "forcing", "rhs"))
     grid, dt, t_end = grid_of(problem, n), real("dt", dt, above=0), real("t_end", t_end, least=0)
     _check(space, time, orders_of(problem))
+    if isinstance(time, Exponential) and not (of_text(problem) and all(type(d) is Fourier for d in space.values())):
+        raise ValueError(
+            f"time must be a Runge-Kutta step such as RK4, or with space FOURIER and a problem that is a text "
+            f"{time.name}, got {time.name} with {shown(problem)}"
+        )
     if not t_end / dt <= MAX_STEPS:
         raise ValueError(
             f"dt must be >= t_end/{MAX_STEPS:.0e} (more steps take too long), got {dt!r} with t_end {t_end!r}"
         )
-    affordable("n: the march", 16 * grid.n * (len(time.b) + 8), f"n = {grid.n}")
+    affordable("n: the march", 16 * grid.n * (_stages(time) + 8), f"n = {grid.n}")
     if not grid.n * t_end / dt <= MAX_WORK:
         raise ValueError(f"n and dt must be such that n t_end/dt <= {MAX_WORK:.0e}, got n = {grid.n} and dt = {dt!r}")
     # A quotient that rounding leaves a little above a whole number is that number.
@@ -122,7 +130,8 @@ def march_lines(
 
 
 def _check(space, time, orders=(1, 2)):
-    instance("time", time, RungeKutta, "RungeKutta step such as RK4 or RK8")
+    if not isinstance(time, Exponential):
+        instance("time", time, RungeKutta, "RungeKutta step such as RK4 or RK8, or ETDRK4")
     if not isinstance(space, dict) or not all(isinstance(d, Stencil | Fourier) for d in space.values()):
         raise TypeError(f"space must be a table of derivatives such as CENTRAL or FOURIER, got {shown(space)}")
     missing = [m for m in orders if m not in space]
@@ -130,6 +139,10 @@ def _check(space, time, orders=(1, 2)):
         raise TypeError(
             f"space must be a table of derivatives such as CENTRAL or FOURIER, got one without order {missing[0]}"
         )
+
+
+def _stages(time):
+    return len(time.b) if isinstance(time, RungeKutta) else 80  # circles of 64 points about each mode
 
 
 def stable_step(toy: Toy, n: int, space: Space, time: RungeKutta) -> float:
@@ -167,7 +180,8 @@ def trace(problem, n, space, time, dt, counts, progress=False):
     x, y, limit = start(problem, n)
     states, depth = np.full((len(dt), *y.shape), np.nan, dtype=y.dtype), np.full(len(dt), np.inf)
     begin = np.concatenate([[0.0], np.cumsum(np.multiply(dt, counts))[:-1]])
-    march = marched if compilable(problem, n, space) and able() else _interpreted
+    fast = isinstance(time, RungeKutta) and compilable(problem, n, space) and able()
+    march = exponential_march if isinstance(time, Exponential) else marched if fast else _interpreted
     with step_bar(int(np.sum(counts)), progress) as tell:
         march(problem, x, y, space, time, dt, begin, counts, limit, states, depth, tell)
     return states, depth
@@ -176,10 +190,15 @@ def trace(problem, n, space, time, dt, counts, progress=False):
 def _interpreted(problem, x, y, space, time, dt, begin, counts, limit, states, depth, tell):
     """The same march in NumPy, for any problem."""
     h, deep, lost, made = grid_of(problem, x.size).h, 0.0, np.zeros_like(y), 0
-    tendency = slope_of(problem, x, lambda f, m: space[m](f, h))
+    if of_text(problem) and x.size > MATRIX_UP_TO and all(isinstance(d, Fourier) for d in space.values()):
+        tendency = slope_by_transforms(problem, x, space, y.dtype.kind == "c")
+        exact_step = step_by_products(time, y)
+    else:
+        exact_step = time.exact_step
+        tendency = slope_of(problem, x, lambda f, m: space[m](f, h))
 
     def slope(y, t):
-        if not np.abs(y).max() <= limit:
+        if not _within(y, limit):
             return np.full_like(y, np.nan)
         return tendency(y, t)
 
@@ -188,12 +207,17 @@ def _interpreted(problem, x, y, space, time, dt, begin, counts, limit, states, d
         for m, count in enumerate(counts):
             for step in range(count):
                 deep -= dt[m] * min(0.0, y[0].real.min())
-                y, lost = time.exact_step(slope, y, lost, dt[m], begin[m] + step * dt[m])
-                if not np.abs(y).max() <= limit:
+                y, lost = exact_step(slope, y, lost, dt[m], begin[m] + step * dt[m])
+                if not _within(y, limit):
                     return
                 if (made := made + 1) % _TELL == 0:
                     tell(made)
             states[m], depth[m] = y, deep
+
+
+def _within(y, limit):
+    """Whether every |number| is <= limit: surely, if the root of the sum of their squares is."""
+    return np.vdot(y, y).real <= limit * limit < math.inf or np.abs(y).max() <= limit
 
 
 @lru_cache(maxsize=64)
