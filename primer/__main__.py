@@ -17,6 +17,7 @@ from primer.lab import add_command as add_lab
 from primer.region_command import add_command as add_region
 from primer.run import add_command as add_run
 from primer.site import add_command as add_site
+from primer.slides import add_command as add_slides
 from primer.terminal import Parser, coloured
 
 _GREETING = """Welcome to primer: change one number, and watch a system of PDEs stop making sense.
@@ -66,6 +67,7 @@ def _parser():
     add_granular(commands)
     add_lab(commands)
     add_site(commands)
+    add_slides(commands)
     _add_claims(commands)
     _add_help(commands)
     return parser
