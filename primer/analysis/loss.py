@@ -26,14 +26,16 @@ SAME = mp.mpf(10) ** -100  # relative size of what is only rounding: coefficient
 GENERIC = (0.31, -0.83, 1.7, -2.9)  # slopes in general position
 
 
-def loss(symbol):
+def loss(symbol, half=False):
     """The power (a Fraction) for a :class:`Symbol` whose growth is bounded; nan where it was not decided.
+
+    ``half``: only xi > 0 counts, in one space variable.
 
     Every unknown counts alike, its j-th time derivative divided by |xi|^(jq), q the power of the fastest branch.
     Unknowns without a time derivative are no data and are left out; data obey the constraints.
     """
     with mp.workdps(100):
-        rays = [(1, 0), (-1, 0)] if symbol.dim == 1 else [(1, mp.mpf(t)) for t in GENERIC]
+        rays = [(1, 0), (-1, 0)][: 2 - half] if symbol.dim == 1 else [(1, mp.mpf(t)) for t in GENERIC]
         on_rays = [_on_ray(symbol.determinant, *d) for d in rays]
         q = max(branch.exponent for P in on_rays for branch in branches(P, 0))
         furthest = max([0.0, *(s for P in on_rays for s, _, _ in scales(P))]) / math.log(10)
