@@ -32,7 +32,7 @@ def cases(P, given=sp.true, above=None, depth=DEPTH):
     """A list of ``Found``: wherever none holds, no branch lambda = o(k^above) of P grows without bound.
 
     ``given`` is what is known, a condition on the names. Coefficients that vanish make cases of their own: the
-    vanishing factor is solved for one name, in which it is linear, and the case is what is left with this name replaced.
+    vanishing factor is solved for one name, in which it is linear, and the case is what is left with it replaced.
     """
     P = {place: tidy for place, a in P.items() if (tidy := _tidied(a)) != 0}
     if not P or given == sp.false:
