@@ -321,7 +321,7 @@ def test_up_to_a_hundred_thousand_times_may_be_asked_for():
 def fake_attempt(tried, holds_until):
     """In place of a march: an error within the tolerance up to a time that depends on the rung."""
 
-    def attempt(toy, times, tol, rung):
+    def attempt(toy, times, tol, rung, progress=False):
         tried.append((rung, tol))
         error = np.where(times <= holds_until(rung), 1e-300, 0.5)
         return np.zeros((times.size, 2, module._POINTS[rung])), error, False

@@ -23,14 +23,14 @@ from primer.schemes.solution import solve
 from primer.schemes.stiff import stiff_attempt
 from primer.types import ArrayLike
 
-# Grid points tried in turn, each judged by the next. Multiples of 8 fill a processor's vector registers.
+# Points tried in turn, each judged by the next. Multiples of 8 fill vector registers.
 _POINTS = (8, 16, 24, 32, 48, 64, 96, 128)
 # Measured at eps = 0: a step of 0.4 costs an error of at most 3.2e-11, which goes with the eighth power of the step.
 _STEP, _STEP_TOL = 0.4, 1e-10
 _MORE_STEPS = 1.3  # of the second march: an eighth of the first one's error in time
 _SAFETY = 2  # by which the difference of the two marches is multiplied
 _ROUND_OFF = 32 * np.finfo(float).eps  # times |a| + 2: about four times the largest error that was all round-off
-_STIFF, _OVERHEAD = 1e7, 300  # steps times (points squared and a bit), some 30 ms: then LSODA is quicker
+_STIFF, _OVERHEAD, _FAR = 1e7, 300, 1e3  # steps times (points squared and a bit), some 30 ms: then LSODA, up to t, |a|
 _ROUGH, _ROUGH_TOL = 3, 1e-9  # a rung of 32 points
 _TIMES = 10**5  # at which the fields of both marches fit into a gigabyte
 _PATIENCE = 1e8  # steps times points squared, some seconds: past this the first u = 0 is not asked for more exactly
@@ -156,15 +156,11 @@ def _times(t: ArrayLike) -> np.ndarray:
 def _past(toy, t, tol, candidate, why):
     """The refusal, whose horizon is rounded down to what is printed and then held to be accepted itself."""
     horizon = float(Context(prec=6, rounding=ROUND_FLOOR).create_decimal(float(candidate)))
-    while horizon > 0 and not _accepted(toy, horizon, tol):
+    while horizon > 0 and _best(toy, np.array([horizon]), tol)[2] != 1:
         horizon *= 0.9
     return PastHorizon(
         f"t must be <= {horizon!r}, the horizon of {toy} at tol = {tol:g}, got {t:.6g}: there {why}", horizon
     )
-
-
-def _accepted(toy, t, tol):
-    return _best(toy, np.array([t]), tol)[2] == 1
 
 
 @lru_cache(maxsize=256)
@@ -193,9 +189,9 @@ def _touch(toy, until):
 def _best(toy, times, tol, progress=False):
     """(states, error, how many times are good, whether u < 0 was met), with as many points as it takes."""
     most, first = 0, _first(tol)
-    for stiff in (True, False):  # what LSODA cannot do is left to short steps
+    for way in ({}, {"stiff": False}):  # what LSODA cannot do is left to short steps
         for rung in range(first, len(_POINTS) - 1):
-            states, error, below = _attempt(toy, times, tol / 4 ** (rung - first), rung, progress, stiff)
+            states, error, below = _attempt(toy, times, tol / 4 ** (rung - first), rung, progress, **way)
             most = max(most, _good(error, tol))
             if most == len(times):
                 return states, error, most, below
@@ -223,7 +219,8 @@ def _attempt(toy, times, tol, rung, progress=False, stiff=True):
     """(states (m, 2, n), error (m,), whether u < 0) at ascending times, on a rung's n points, judged by the next."""
     n, finer = _POINTS[rung], _POINTS[rung + 1]
     step, finer_step = _step(toy, tol, n), _step(toy, tol, finer)
-    if stiff and _work(toy, times[-1], tol, rung) > _STIFF and (found := stiff_attempt(toy, n, finer, times, tol)):
+    stiff = stiff and max(times[-1], abs(toy.a)) <= _FAR and _work(toy, times[-1], tol, rung) > _STIFF
+    if stiff and (found := stiff_attempt(toy, n, finer, times, tol)):
         return found[0], found[1] + _round_off(toy), found[2]
     if times[-1] > MAX_STEPS * finer_step:
         raise ValueError(f"t must be <= {MAX_STEPS * finer_step:.3g}, {MAX_STEPS} steps for {toy}, got {times[-1]:g}")
