@@ -8,7 +8,7 @@ import json
 import os
 import signal
 import sys
-from concurrent.futures import ProcessPoolExecutor, as_completed
+from concurrent.futures import FIRST_COMPLETED, ProcessPoolExecutor, wait
 from importlib import import_module
 from multiprocessing import parent_process
 from pathlib import Path
@@ -46,7 +46,7 @@ def main(arguments=None):
         waiting = {pool.submit(job, name, options.out, options.formats, options.redraw): name for name in options.names}
         try:
             with tqdm(total=len(waiting), unit="figure", disable=None) as bar:
-                for done in as_completed(waiting):
+                for done in _as_they_come(waiting, bar):
                     name = waiting[done]
                     if isinstance(error := done.exception(), Exception):  # a full disk, a worker that died
                         problems.append(f"{name}: not {tell} ({type(error).__name__}: {error})")
@@ -54,7 +54,6 @@ def main(arguments=None):
                         sentences, held = done.result()
                         problems += [f"{name}: {sentence}" for sentence in sentences]
                         kept += [name] * held
-                    bar.set_postfix_str(name)
                     bar.update()
         except KeyboardInterrupt:
             pool.shutdown(wait=False, cancel_futures=True)
@@ -67,6 +66,15 @@ def main(arguments=None):
     if kept:
         print(f"{len(kept)} were there, their numbers hold, and they are as they were: --redraw draws them anew")
     return 1 if problems else 0
+
+
+def _as_they_come(waiting, bar):
+    """Yield the futures that are done; once a second the bar has the time, and what is at work."""
+    left = set(waiting)
+    while left:
+        done, left = wait(left, timeout=1, return_when=FIRST_COMPLETED)
+        yield from done
+        bar.set_postfix_str(", ".join(sorted(waiting[each] for each in left if each.running())))
 
 
 def _as_a_worker():

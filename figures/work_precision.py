@@ -17,7 +17,7 @@ from primer import reference
 from primer.study import measured
 from primer.study.contestants import contestants
 from primer.view.style import new_figure, ticks
-from primer.view.work_precision import draw_cost, draw_work_precision
+from primer.view.work_precision import draw_cost, draw_work_precision, keys, name_alone
 
 MEASURED = Path(__file__).with_suffix(".measured.json")
 QUICK = 0.02  # seconds; runs that took longer are not made again
@@ -46,9 +46,15 @@ def draw(result):
     study, cost = result
     figure, (left, right) = new_figure(height=5.4, title="Error against wall time: a = 1.5, ε = 0.01, to t = 5")
     lines = draw_work_precision(left, study)
+    name_alone(left, study)
     left.set(title="(a) what an error costs")
     draw_cost(right, cost)
     right.set(title="(b) what N points cost")
     ticks(right.xaxis, [50, 100, 200, 400, 800, 1600, 3200])
-    figure.legend(handles=lines, loc="outside lower center", ncols=4, fontsize=8.5)
+    spaces, times = keys(study.methods)
+    small = {"fontsize": 8.5, "title_fontsize": 8.5, "alignment": "left"}
+    figure.legend(handles=spaces, loc="outside lower left", ncols=2, title="colour: in space", **small)
+    figure.legend(
+        handles=[*times, lines[-1]], loc="outside lower right", ncols=2, title="marker and line: in time", **small
+    )
     return figure

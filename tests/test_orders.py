@@ -305,7 +305,7 @@ def test_the_longest_marches_allowed(monkeypatch):
     """10^7 steps, and 10^12 points times steps, are not too many: they are marched."""
     asked = []
 
-    def trace(problem, n, space, time, dt, counts):
+    def trace(problem, n, space, time, dt, counts, progress):
         asked.append((n, int(counts[0])))
         return np.zeros((1, 2, n)), None
 

@@ -3,6 +3,16 @@
 Another seed gives another student other numbers; without one everybody has those of the notebook.
 """
 
+from primer.exercises.cidr_proofs import (
+    ask_07_5,
+    ask_07_6,
+    ask_07_7,
+    ask_07_8,
+    check_07_5,
+    check_07_6,
+    check_07_7,
+    check_07_8,
+)
 from primer.exercises.cidr_theorem import ask_07_1, ask_07_2, ask_07_3, check_07_1, check_07_2, check_07_3
 from primer.exercises.granular_rheologies import ask_06_1, ask_06_2, ask_06_3, check_06_1, check_06_2, check_06_3
 from primer.exercises.grid_dependence import (
@@ -38,8 +48,10 @@ from primer.exercises.testing_a_pde import (
     check_02_3,
     check_02_4,
 )
+from primer.exercises.three_conditions import ask_11_1, ask_11_2, check_11_1, check_11_2
 from primer.exercises.what_can_be_saved import ask_10_1, ask_10_2, check_10_1, check_10_2
 from primer.exercises.what_ill_posed_means import ask_01_1, ask_01_2, ask_01_3, check_01_1, check_01_2, check_01_3
+from primer.exercises.when_freezing_lies import ask_12_1, ask_12_2, check_12_1, check_12_2
 from primer.exercises.write_it_yourself import ask_09_1, ask_09_2, check_09_1, check_09_2
 
 __all__ = [
@@ -69,6 +81,10 @@ __all__ = [
     "ask_07_1",
     "ask_07_2",
     "ask_07_3",
+    "ask_07_5",
+    "ask_07_6",
+    "ask_07_7",
+    "ask_07_8",
     "ask_08_1",
     "ask_08_2",
     "ask_08_3",
@@ -76,6 +92,10 @@ __all__ = [
     "ask_09_2",
     "ask_10_1",
     "ask_10_2",
+    "ask_11_1",
+    "ask_11_2",
+    "ask_12_1",
+    "ask_12_2",
     "check_00_1",
     "check_00_2",
     "check_01_1",
@@ -102,6 +122,10 @@ __all__ = [
     "check_07_1",
     "check_07_2",
     "check_07_3",
+    "check_07_5",
+    "check_07_6",
+    "check_07_7",
+    "check_07_8",
     "check_08_1",
     "check_08_2",
     "check_08_3",
@@ -109,4 +133,8 @@ __all__ = [
     "check_09_2",
     "check_10_1",
     "check_10_2",
+    "check_11_1",
+    "check_11_2",
+    "check_12_1",
+    "check_12_2",
 ]

@@ -1,6 +1,7 @@
 """Pictures of error against wall time, and of wall time against N."""
 
 import numpy as np
+from matplotlib.lines import Line2D
 
 from primer.view.style import legend_below
 
@@ -54,6 +55,25 @@ def draw_work_precision(ax, study):
     )
     ax.set(xlabel="wall time (s)", ylabel=f"largest error of u and v at t = {study.t_end:g}")
     return artists
+
+
+_NAMED = {"FTCS": (6, 10), "reference": (22, -9), "py-pde": (-24, 0)}  # points beside the last of the method
+
+
+def name_alone(ax, study):
+    """Write at their last points the names of the methods that share neither colour nor marker with another."""
+    for name, beside in _NAMED.items():
+        points = [p for p in study.of(name) if np.isfinite(p.error)]
+        if points:
+            place = {"xytext": beside, "textcoords": "offset points", "ha": "center", "va": "center"}
+            ax.annotate(name, (points[-1].seconds, points[-1].error), fontsize=8.5, color=_look(name)["color"], **place)
+
+
+def keys(methods):
+    """(handles of the colours, handles of the markers): what is done in space, and what in time."""
+    spaces = [Line2D([], [], color=_COLOURS[name], lw=3, label=name) for name in _COLOURS if f"{name} + RK4" in methods]
+    times = [Line2D([], [], label=name, **_look(f"Fourier + {name}") | {"color": "0.3"}) for name in ("RK4", "RK8")]
+    return spaces, times + [Line2D([], [], label=m, **_look(m)) for m in methods if m.startswith("solve_ivp")]
 
 
 def draw_effort(ax, efforts, top=10.0, ylabel="largest error of u and v"):
