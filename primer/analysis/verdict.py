@@ -1,9 +1,10 @@
 """The verdict: does the growth of short waves stay bounded? (Section A2.1 of the paper.)"""
 
 import math
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from fractions import Fraction
-from typing import Any
+from typing import Any, TypeAlias, overload
 
 import mpmath as mp
 import numpy as np
@@ -15,17 +16,51 @@ from primer.analysis.fitted import computed
 from primer.analysis.laws import NotPolynomialError, exact_symbol
 from primer.analysis.loss import loss
 from primer.analysis.outcome import Kind, Verdict, undecided
+from primer.analysis.pencil import Pencil
 from primer.analysis.poles import of_law, on_curves, undetermined
 from primer.analysis.puiseux import branches
 from primer.analysis.quadratic import quadratic
 from primer.analysis.roots import DIGITS
 from primer.analysis.scales import scales
 from primer.analysis.supremum import along_line, exact_growth, in_plane, rate, ray
+from primer.analysis.symbolic import Symbol
 from primer.analysis.symmetry import reduced
+from primer.types import SympyEquation
+
+#: What can be judged.
+Judged: TypeAlias = str | SympyEquation | Sequence[str] | Sequence[SympyEquation] | Symbol | Pencil
+
+
+@overload
+def verdict(
+    pde: Judged,
+    /,
+    *,
+    at: dict[str, complex] | None = None,
+    order: str = "full",
+    uniform: bool = False,
+    space: Any = None,
+    time: str | None = None,
+    **parameters: complex | str | Callable[..., Any],
+) -> Verdict: ...
+
+
+@overload
+def verdict(
+    pde: Judged,
+    /,
+    *,
+    at: dict[str, Any] | None = None,
+    order: str = "full",
+    uniform: bool = False,
+    space: Any = None,
+    time: str | None = None,
+    **parameters: Any,
+) -> Any: ...
 
 
 def verdict(
-    pde: Any,
+    pde: Judged,
     /,
     *,
     at: dict[str, Any] | None = None,
