@@ -61,6 +61,8 @@ from .study.examination import examine as examine
 from .study.maps import blow_up_map as blow_up_map
 from .study.refinement import heat_onset as heat_onset
 from .study.refinement import refine as refine
+from .study.region import Region as Region
+from .study.region import region as region
 from .study.stability import stable_dt as stable_dt
 from .study.threshold import GridThreshold as GridThreshold
 from .study.threshold import grid_threshold as grid_threshold

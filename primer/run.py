@@ -32,8 +32,16 @@ def add_command(commands):
         "--steady", nargs="+", action="extend", metavar="FIELD=TEXT", help="the state that Dist is measured from"
     )
     sub.add_argument(
-        "--set", nargs="+", action="extend", default=[], type=_assignment, metavar="NAME=VALUE", help="parameters"
+        "--set",
+        nargs="+",
+        action="extend",
+        default=[],
+        type=_assignment,
+        metavar="NAME=VALUE",
+        help="parameters; of a function f(u), a text: 'f=u^3 - u'",
     )
+    sub.add_argument("--space", metavar="NAME", help="what the space variable is called (default: x)")
+    sub.add_argument("--time", metavar="NAME", help="what time is called (default: t)")
     sub.add_argument("--period", default="2*pi", help="in x: a number, or as here (default: 2*pi)")
     sub.add_argument("--n", type=_grids, default=(64, 128, 256), metavar="N,N,...", help="grids (default: 64,128,256)")
     sub.add_argument("--t-end", type=float, default=1.0, help="the end (default: 1)")
@@ -54,7 +62,8 @@ def _run(options):
     if options.plot is not None:
         _check_plot(options.plot)
     try:
-        problem = PDE(text, initial, steady=steady, period=length(options.period), **dict(options.set))
+        variables = {"space": options.space, "time": options.time}
+        problem = PDE(text, initial, steady=steady, period=length(options.period), **variables, **dict(options.set))
     except PDEError as error:
         raise ValueError(re.sub(r"as in PDE\(\.\.\., (\S+)=1\.0\)", r"as in --set \1=1", str(error))) from None
     found = compare_grids(problem, options.n, options.t_end)
@@ -120,7 +129,8 @@ def _assignment(text):
         if equals and name.strip():
             return name.strip(), float(value)
     except ValueError:
-        pass
+        if any(letter.isalpha() for letter in value):
+            return name.strip(), value  # a function as a text
     raise argparse.ArgumentTypeError(f"expected NAME=VALUE such as nu=0.1, got {text!r}")
 
 

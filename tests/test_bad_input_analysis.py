@@ -118,6 +118,19 @@ TABLE = {
     "Compaction.dC": (PILE.dC, {"phi": 0.55}, {"phi": OUTSIDE}),
     "Compaction.phi": (PILE.phi, {"C": 1.0}, {"C": (*ARRAY, -1.0)}),
     "Coulomb": (Coulomb, {"mu": 0.4}, {"mu": POSITIVE}),
+    "RegularisedMuI": (granular.RegularisedMuI, {"mu1": 0.3, "mu2": 0.6, "I0": 0.3}, {
+        "mu1": (*POSITIVE, 0.6), "mu2": (*REAL, 0.3, -1.0), "I0": POSITIVE, "mu_inf": POSITIVE, "alpha": POSITIVE,
+    }),
+    "MuIPhiI": (granular.MuIPhiI, {"friction": BEADS}, {
+        "friction": (*THING, PILE), "phi_max": (*POSITIVE, 1.1), "slope": POSITIVE, "K": POSITIVE,
+    }),
+    "DruckerPrager": (granular.DruckerPrager, {"mu": 0.4, "K": 0.1}, {
+        "mu": POSITIVE, "K": (*REAL, -1.0), "index": POSITIVE, "c": (*REAL, -1.0), "d": POSITIVE, "rho": POSITIVE,
+    }),
+    "TextLaw": (granular.TextLaw, {"Y_text": "p", "f_text": "0"}, {
+        "Y_text": ("q*p", "p_x", 3, None, ""), "f_text": ("q", 3, None, "2i"),
+        "parameters": ({"p": 1.0}, 3, {"a": 1.0}),
+    }),
     "IncompressibleMuI": (IncompressibleMuI, {"friction": BEADS}, {"friction": (*THING, PILE)}),
     "CSSM": (CSSM, {"mu": 0.4, "compaction": PILE}, {"mu": POSITIVE, "compaction": (*THING, BEADS)}),
     "CIDR": (CIDR, {"friction": BEADS, "compaction": PILE}, {

@@ -119,4 +119,4 @@ def test_help_needs_no_numpy():
     code = "import sys; from primer.__main__ import _parser; _parser().format_help(); print('numpy' in sys.modules)"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout == "False\n"
-    assert primer.base_state._LAWS == primer.granular.command.LAWS
+    assert primer.base_state._LAWS == primer.granular.named.LAWS

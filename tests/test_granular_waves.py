@@ -26,6 +26,7 @@ from primer.granular.march import Outcome, march_waves
 from primer.granular.mode_growth import mode_growth
 from primer.granular.system import System
 from primer.granular.waves import PlaneWave
+from primer.scenes.granular_march import refine_wave
 from primer.schemes.grid import Grid
 
 BEADS, PACKING = GLASS_BEADS.friction, EXAMPLE_COMPACTION
@@ -265,6 +266,21 @@ def test_refined_cidr_converges_and_the_others_are_lost_the_sooner_the_finer_the
     for law in (Coulomb(BEADS.mu1), IncompressibleMuI(BEADS)):
         large = [run.t[np.argmax(run.size > 0.5)] if run.size.max() > 0.5 else t for run in runs(law)]
         assert large[2] < large[0]
+
+
+@pytest.mark.slow
+def test_the_scene_says_what_the_grids_do():
+    cidr = refine_wave(*CASES[0], n=32, strain=0.1)
+    assert cidr.order == pytest.approx(2, abs=0.1)
+    assert cidr.parted == math.inf
+    assert "converge with order" in cidr.verdict
+    lost = refine_wave(CASES[4][0], STATE, n=32, strain=0.1)
+    assert math.isnan(lost.order)
+    assert 0 < lost.parted < 0.1
+    assert "not the same wave" in lost.verdict
+    assert max(each.error for each in (*cidr.growth, *lost.growth)) < 0.01
+    ended = refine_wave(CASES[1][0], STATE, n=64, strain=0.12)
+    assert "shear stops" in ended.verdict
 
 
 def test_what_a_wave_leaves_is_named():

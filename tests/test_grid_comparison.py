@@ -160,6 +160,16 @@ def test_the_command(capsys, tmp_path):
     assert whole["lost"] == [None] * 3
 
 
+def test_the_command_takes_names_of_variables_and_functions(capsys):
+    with_names = ["run", "c_tau = f(c)_rr", "--space", "r", "--time", "tau", "--set", "f=k*c", "k=1"]
+    plain = ["run", "u_t = k*u_xx", "--set", "k=1"]
+    assert main([*with_names, "--initial", "c = sin(r)", "--n", "16,32", "--t-end", "0.5", "--json"]) == 0
+    found = json.loads(capsys.readouterr().out)
+    assert main([*plain, "--initial", "u = sin(x)", "--n", "16,32", "--t-end", "0.5", "--json"]) == 0
+    expected = json.loads(capsys.readouterr().out)
+    assert found["dist"] == pytest.approx(expected["dist"], rel=1e-9)
+
+
 @pytest.mark.parametrize(
     ("asked", "says"),
     [

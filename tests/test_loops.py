@@ -42,7 +42,8 @@ def larger(inner):
 
 
 TERMS = st.recursive(LEAVES, larger, max_leaves=8)
-CALLS = st.builds("{} + {}({})*{}".format, TERMS, st.sampled_from(["sin", "exp", "tanh", "log"]), TERMS, TERMS)
+CALLED = ["sin", "exp", "tanh", "log", "sign", "asin", "acos", "atan", "erf"]  # all by NumPy, or SciPy, row by row
+CALLS = st.builds("{} + {}({})*{}".format, TERMS, st.sampled_from(CALLED), TERMS, TERMS)
 POWERS = st.builds("{} + abs({})^{}".format, TERMS, TERMS, st.sampled_from(["0.7", "a", "u", "(1/3)"]))
 
 
@@ -83,6 +84,9 @@ def both(pde, *arguments, **options):
 @example(("(u^2/2 - v_x)_x", "-(u*v)_x + u_xxxx"), 17, 1e-6, 7, np.float64, 1e3, False)
 @example(("u_xxxxxxxx + ((u*v)_x/u)_xx", "t*cos(x - t)*u_xxxxxxx"), 33, 1e-9, 1, np.float32, 1e3, False)
 @example(("abs(u)^2*u + sqrt(u)/v", "u/(v_x + 2) + log(u)"), 12, 1e-3, 5, np.float64, 3.0, True)
+@example(("sign(v)*asin(u/9) + acos(v/9)", "atan(u_x) + erf(v) + v_xx"), 12, 1e-3, 5, np.float64, 3.0, False)
+@example(("sign(v)*u_x", "max(u, v)*erf(u) - min(v, 0.1)"), 12, 1e-3, 5, np.float32, 3.0, False)
+@example(("asin(u/9) + acos(v/9)", "atan(u_x/9) + erf(v) + v_xx"), 12, 1e-3, 5, np.float64, 3.0, True)
 def test_machine_code_gives_the_bits_of_numpy(right, n, dt, every, dtype, far, complex_):
     pde = problem(right, complex_)
     steps = 120

@@ -400,6 +400,13 @@ def test_a_parse_takes_milliseconds():
     assert (time.process_time() - start) / 10 < 0.1  # 4 ms are usual
 
 
+def test_the_sign_of_a_derivative_can_be_differentiated_twice():
+    base = {"u_x": 2.0, "u_xx": 3.0, "u_xxx": 5.0}
+    assert verdict("u_t = sign(u_x)_xx + u_xx", at=base).coefficient == -1  # away from u_x = 0 the first term is 0
+    with pytest.raises(PDEError, match="divide by zero"):
+        verdict("u_t = sign(u_x)_xx + u_xx", at={**base, "u_x": 0})
+
+
 def test_sign_has_no_slope_at_zero():
     assert growth_rates("u_t = sign(u) u_x", 1.0, at={"u": -2, "u_x": 3}) == pytest.approx(-1j)
     with pytest.raises(PDEError, match=r"divide by zero|not be linearised"):

@@ -7,6 +7,8 @@ import pytest
 import sympy as sp
 
 from primer import PDE, PDEError, growth_laws, growth_rates, linearise, verdict
+from primer.analysis.fitted import computed
+from primer.analysis.symbolic import pencil
 
 XI = np.array([-3.0, -0.5, 0.7, 20.0])
 
@@ -44,7 +46,7 @@ def test_growth_rates(text, arguments, rate):
 )
 def test_verdicts(text, arguments, kind, exponent, coefficient, bound):
     found = verdict(text, **arguments)
-    assert (found.kind, found.exact) == (kind, False)
+    assert (found.kind, found.exact) == (kind, "_y" not in text and "_xy" not in text)
     assert abs(found.exponent - exponent) <= max(found.uncertainty, 1e-12)
     assert found.coefficient == pytest.approx(coefficient, rel=1e-6, abs=1e-9)
     assert found.bound == pytest.approx(bound, abs=1e-9)
@@ -67,3 +69,39 @@ def test_an_unknown_may_be_called_H():
     with pytest.raises(PDEError, match="two ways"):
         linearise("H_t = H(x)_x; u_t = u_x")
     assert linearise("u_t = H*(u_xx)", H=2) == linearise("u_t = 2*u_xx")
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_verdicts_on_half_lines_are_those_that_are_computed(seed):
+    """A second route: the same symbol as a pencil of numbers, whose law is fitted."""
+    chance = np.random.default_rng(seed)
+    c = [round(float(x), 2) for x in chance.normal(size=4)]
+    i = "i*" * (seed % 3 == 0)
+    text = f"u_t = {c[0]}*absD(u) + {i}{c[1]}*H(u)_xx + {c[2]}*u_xx + v; v_t = {c[3]}*H(v_x) - u"
+    found, fit = verdict(text), computed(pencil(text))
+    assert (found.kind, found.exact, fit.exact) == (fit.kind, True, False)
+    assert float(found.exponent) == pytest.approx(float(fit.exponent), abs=1e-6)
+    assert found.coefficient == pytest.approx(fit.coefficient, rel=1e-5)
+    assert found.bound == fit.bound or found.bound == pytest.approx(fit.bound, rel=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("text", "kind", "direction", "bound"),
+    [
+        ("u_t = i*H(u)_xx", "ill-posed", -1, math.inf),  # lambda = -sign(xi) xi^2
+        ("u_t = -i*H(u)_xx", "ill-posed", 1, math.inf),
+        ("u_t = i*H(u)/3 + u_xx", "well-posed", None, 1 / 3),  # sign(xi)/3 - xi^2
+        ("u_t = i*H(u)/3 - absD(u)", "well-posed", None, 1 / 3),
+    ],
+)
+def test_half_lines_may_differ(text, kind, direction, bound):
+    found = verdict(text)
+    assert (found.kind, found.exact) == (kind, True)
+    assert found.bound == pytest.approx(bound)
+    assert direction is None or found.direction == (direction,)
+
+
+def test_a_narrow_resonance_beside_a_modulus_is_found():
+    """Growth by e in a band of width e about |xi| = 0.85: no scan sees it."""
+    found = verdict("u_t = i*absD(u) + e*v; v_t = -i*absD(v) + 1.7*i*v + e*u", e=1e-7)
+    assert found.bound == pytest.approx(1e-7, rel=1e-6)

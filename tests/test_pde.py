@@ -214,3 +214,35 @@ def test_an_ensemble_is_each_alone():
 def test_a_table_without_a_derivative_is_refused():
     with pytest.raises(TypeError, match="got one without order 4"):
         march_lines(PDE("u_t = -u_xxxx", {"u": "sin(x)"}), 8, 1e-3, 0.1, {m: CENTRAL[m] for m in (1, 2)}, RK4)
+
+
+DIFFUSES = "c_tau = (f(c))_rr - (c^2/2)_r"
+
+
+def test_the_variables_may_have_other_names_and_functions_come_by_keyword():
+    plain = PDE("u_t = (nu*u + u^3)_xx - (u^2/2)_x", {"u": "a - cos(x)"}, steady={"u": "a"}, nu=0.1, a=0.3)
+    own = {"space": "r", "time": "tau", "nu": 0.1, "a": 0.3}
+    texts = PDE(DIFFUSES, {"c": "a - cos(r)"}, steady={"c": "a"}, f="nu*c + c^3", **own)
+    of_python = {"space": "r", "time": "tau", "a": 0.3, "f": lambda c: 0.1 * c + c**3}
+    function = PDE(DIFFUSES, {"c": "a - cos(r)"}, steady={"c": "a"}, **of_python)
+    runs = [ftcs(problem, 24, t_end=0.1) for problem in (plain, texts, function)]
+    assert runs[0].final[0] == pytest.approx(runs[1].final[0], rel=1e-12, abs=1e-13)
+    assert runs[0].final[0] == pytest.approx(runs[2].final[0], rel=1e-12, abs=1e-13)
+    assert eval(repr(texts)) == texts
+    slower = texts.replace(f="nu*c/2 + c^3/2", a=0.1)
+    assert (slower.parameters["a"], slower.space, slower.functions) == (0.1, "r", (("f", "nu*c/2 + c^3/2"),))
+
+
+@pytest.mark.parametrize(
+    ("call", "words"),
+    [
+        (lambda: PDE(DIFFUSES, {"c": "sin(x)"}, space="r", time="tau", f="c"), "x has no value"),
+        (lambda: PDE(DIFFUSES, {"c": "sin(r)"}, space="r", time="tau"), "f"),
+        (lambda: PDE(HEAT, {"u": "sin(x)"}, f="u"), "'f' is given but does not occur"),
+        (lambda: PDE(HEAT, {"u": "sin(x)"}, space="r"), "x"),
+        (lambda: PDE("u_t = u_xx + space*u", {"u": "sin(x)"}), "space is what an argument is called"),
+    ],
+)
+def test_what_variables_and_functions_refuse(call, words):
+    with pytest.raises(PDEError, match=words):
+        call()

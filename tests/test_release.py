@@ -130,3 +130,10 @@ def test_ctrl_c_gives_130(monkeypatch):
 
     monkeypatch.setattr(sys, "stdin", Interrupted())
     assert main(["verdict", "-"]) == 130
+
+
+def test_the_environment_is_that_of_the_package():
+    """What conda and Binder build: the Python that pyproject.toml asks for, and the package itself."""
+    lines = [line.strip() for line in read("environment.yml").splitlines() if not line.startswith("#")]
+    assert f"- python{tomllib.loads(read('pyproject.toml'))['project']['requires-python']}" in lines
+    assert lines[-2:] == ["- pip:", "- -e ."]

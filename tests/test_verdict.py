@@ -211,7 +211,7 @@ def test_pencils_of_numbers():
     assert compressible.bound == pytest.approx(1.2)
     with pytest.raises(TypeError, match="text only"):
         verdict(navier_stokes(), at={"u": 1})
-    with pytest.raises(TypeError, match=r"must be a string .*, got int"):
+    with pytest.raises(TypeError, match="the equations must be"):
         verdict(3)
 
 

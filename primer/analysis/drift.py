@@ -13,6 +13,7 @@ from itertools import combinations, pairwise
 import mpmath as mp
 import numpy as np
 
+from primer.analysis.factors import factors
 from primer.analysis.puiseux import Law, branches, collected, hull_of, shifted_by
 from primer.analysis.roots import DIGITS, ZERO, resultant, roots
 
@@ -44,13 +45,14 @@ def worst_law(D, real, hints=(), inward=False):
     with mp.workdps(DIGITS):
         for sign in (1,) if real else (1, -1):
             out = -1 if inward else 1
-            along_x = {(n, Fraction(out * (a + b)), b): c * sign ** (a + b) for (n, a, b), c in D.items()}
-            along_y = {(n, Fraction(out * (a + b)), a): c * sign ** (a + b) for (n, a, b), c in D.items()}
             search = _Search(hints)
-            search.family(along_x, Fraction(0), DEPTH, None)
-            search.near(along_y, Fraction(0), DEPTH, mp.inf)
-            for slope in (0, 1, -1):
-                search.add(search.law(along_x, Fraction(0), mp.mpf(slope)), mp.mpf(slope), Fraction(0))
+            for F in factors(D):
+                along_x = {(n, Fraction(out * (a + b)), b): c * sign ** (a + b) for (n, a, b), c in F.items()}
+                along_y = {(n, Fraction(out * (a + b)), a): c * sign ** (a + b) for (n, a, b), c in F.items()}
+                search.family(along_x, Fraction(0), DEPTH, None)
+                search.near(along_y, Fraction(0), DEPTH, mp.inf)
+                for slope in (0, 1, -1):
+                    search.add(search.law(along_x, Fraction(0), mp.mpf(slope)), mp.mpf(slope), Fraction(0))
             found += [(law, sign, slope, r) for law, slope, r in search.found]
     top = max(law for law, _, _, _ in found)
     # Of laws that are equal but for rounding, the one in the plainest direction.

@@ -17,6 +17,7 @@ TINY = 1e-150  # the square of its inverse is still a number
 LEAST = 2.0**-300  # the smallest factor by which a row or column is divided: the cube of its inverse is still a number
 LOST = 1e50  # an iterate this large is on its way to infinity
 CIRCLE = 6  # values back that an iterate is compared with
+PATIENCE = 12  # steps after which a value that has not settled is asked whether it is a zero
 STEPS = 60  # Ehrlich-Aberth converges cubically; graded starting values need a few dozen steps at the very most
 
 
@@ -56,7 +57,7 @@ def _polished(S, E, lam, active):
     lost = np.zeros(lam.shape, dtype=bool)
     last = np.full(lam.shape, np.inf)
     visited: list[np.ndarray] = []
-    for _ in range(STEPS):
+    for step_number in range(STEPS):
         rows = np.flatnonzero(active.any(axis=1))
         if not rows.size:
             break
@@ -73,6 +74,10 @@ def _polished(S, E, lam, active):
         lam[rows] = np.where(lost[rows], LOST * np.exp(1j * np.arange(now.shape[1])), new)
         # Stop at rounding level, or when a step no longer shrinks: a zero or a multiple eigenvalue has no better value.
         done = (size <= 2 * EPS * np.abs(now)) | (settled & (size > last[rows] / 2))
+        if step_number == PATIENCE:  # a zero has no digits of its own to settle: where S is singular, it is one
+            nought = _near_zero(S[rows], now)
+            lam[rows] = np.where(nought & active[rows], 0, lam[rows])
+            done |= nought
         # A zero among large ones, or a multiple one, may go round in a circle at rounding level for ever.
         for old in visited[-CIRCLE:]:
             done |= np.abs(lam[rows] - old[rows]) <= 2 * EPS * np.abs(lam[rows])
@@ -81,6 +86,14 @@ def _polished(S, E, lam, active):
         last[rows] = size
     lam[lost] = np.nan
     return lam
+
+
+def _near_zero(S, lam):
+    """Of each row, the smallest eigenvalue where S is singular to rounding, and that eigenvalue beside the others."""
+    size = np.abs(lam)
+    s = np.linalg.svd(_scaled(S)[0], compute_uv=False)
+    least = size == size.min(axis=1, keepdims=True)
+    return least & (s[:, -1:] <= 16 * EPS * s[:, :1]) & (size <= 1e-12 * size.max(axis=1, keepdims=True))
 
 
 def _told_apart(S, E, lam):

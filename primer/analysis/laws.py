@@ -107,6 +107,11 @@ def exact_symbol(
         problem = NotPolynomialError("H and absD make a symbol that is no polynomial in xi: it has no Newton polygon")
         problem.symbol = exact
         raise problem
+    return determined(exact)
+
+
+def determined(exact: Symbol) -> Symbol:
+    """The symbol, if its determinant says that something evolves, and uniquely; else PDEError."""
     D = exact.determinant
     if not D:
         raise PDEError("the linearised equations do not determine the unknowns: det(lambda E + S) vanishes identically")

@@ -10,9 +10,11 @@ from __future__ import annotations
 
 import math
 from fractions import Fraction
+from itertools import combinations, pairwise
 
 import mpmath as mp
 
+from primer.analysis.factors import factors
 from primer.analysis.puiseux import branches, collected
 from primer.analysis.roots import interpolated, roots, sylvester_interpolated, trimmed
 from primer.analysis.scales import scales
@@ -24,14 +26,16 @@ SAME = mp.mpf(10) ** -100  # relative size of what is only rounding: coefficient
 GENERIC = (0.31, -0.83, 1.7, -2.9)  # slopes in general position
 
 
-def loss(symbol):
+def loss(symbol, half=False):
     """The power (a Fraction) for a :class:`Symbol` whose growth is bounded; nan where it was not decided.
+
+    ``half``: only xi > 0 counts, in one space variable.
 
     Every unknown counts alike, its j-th time derivative divided by |xi|^(jq), q the power of the fastest branch.
     Unknowns without a time derivative are no data and are left out; data obey the constraints.
     """
     with mp.workdps(100):
-        rays = [(1, 0), (-1, 0)] if symbol.dim == 1 else [(1, mp.mpf(t)) for t in GENERIC]
+        rays = [(1, 0), (-1, 0)][: 2 - half] if symbol.dim == 1 else [(1, mp.mpf(t)) for t in GENERIC]
         on_rays = [_on_ray(symbol.determinant, *d) for d in rays]
         q = max(branch.exponent for P in on_rays for branch in branches(P, 0))
         furthest = max([0.0, *(s for P in on_rays for s, _, _ in scales(P))]) / math.log(10)
@@ -51,7 +55,7 @@ def loss(symbol):
             if symbol.dim == 2 and slopes is None:
                 return math.nan
             vectors = [(x * k, y * k) for x, y in (rays if slopes is None else [(0, 1), *((1, t) for t in slopes)])]
-            values = [_resolvent(symbol, xi, max(q, 0)) for xi in vectors]
+            values = [_resolvent(symbol, xi, max(q, 0), same) for xi in vectors]
             if None in values or not values:
                 return math.nan
             found.append(mp.log(max(values), 10))
@@ -66,8 +70,11 @@ def _on_ray(D, x, y):
     return collected((((n, Fraction(a + b)), c * x**a * y**b) for (n, a, b), c in D.items()))
 
 
-def _resolvent(symbol, xi, q):
-    """The largest Re s |(s - A)^-1| at one wavevector over the places s that matter, None where data are not states."""
+def _resolvent(symbol, xi, q, same):
+    """The largest Re s |(s - A)^-1| at one wavevector over the places s that matter, None where data are not states.
+
+    ``same``: ratios of eigenvalues are the same at every |xi|, so that of distances of one size one will do.
+    """
     p = [mp.mpc(0)] * (1 + max(n for n, _, _ in symbol.determinant))
     size = [mp.mpf(0)] * len(p)
     for (n, a, b), c in symbol.determinant.items():
@@ -87,10 +94,16 @@ def _resolvent(symbol, xi, q):
     best = mp.mpf(0)
     for z in eigenvalues:
         distances = {mp.mpf(least), *(max(least, abs(w - 1j * z.imag)) for w in eigenvalues)}
-        for distance in distances:
+        for distance in _of_each_size(distances) if same else distances:
             X = _solved(E, S, mp.mpc(distance, z.imag), V)
             best = max(best, distance * mp.mnorm(_counted(X, counted), "f"))
     return best
+
+
+def _of_each_size(distances):
+    """The smallest of each group of distances that are within a decade of the next."""
+    ascending = sorted(distances)
+    return [ascending[0], *(far for near, far in pairwise(ascending) if far > 10 * near)]
 
 
 def _first_order(symbol, xi, unit):
@@ -131,7 +144,8 @@ def _solved(E, S, s, V):
         for r in range(size):
             if r != step and rows[r][step]:
                 factor = rows[r][step] / top[step]
-                rows[r] = [x - factor * y if c > step else x for c, (x, y) in enumerate(zip(rows[r], top, strict=True))]
+                pairs = enumerate(zip(rows[r], top, strict=True))
+                rows[r] = [x - factor * y if c > step and y else x for c, (x, y) in pairs]
     return mp.matrix([[x / row[i] for x in row[size:]] for i, row in enumerate(rows)])
 
 
@@ -180,23 +194,31 @@ def _counted(X, rows):
 
 def _slopes(D, k):
     """Slopes xi_2/xi_1 at xi_1 = k: those at which branches meet, and some in general position; or None."""
-    top = max(n for n, _, _ in D)
-    columns: list[dict] = [{} for _ in range(top + 1)]
-    for (n, a, b), c in D.items():
-        columns[n][b] = columns[n].get(b, 0) + c * k ** (a + b)
-    p = [[column.get(b, mp.mpc(0)) for b in range(max(column, default=0) + 1)] for column in columns]
+    parts = [_at_slope(part, k) for part in factors(D)]
     found = [mp.mpf(0), mp.mpf(1), mp.mpf(-1), *map(mp.mpf, GENERIC)]
-    if top > 1:
-        meeting = sylvester_interpolated(p, [[n * c for c in column] for n, column in enumerate(p)][1:])
-        if meeting is None:  # some are one everywhere: each once
-            p = _simple(p)
-            if p is None:
-                return None
+    meetings = [sylvester_interpolated(p, q) for p, q in combinations(parts, 2)]
+    for p in parts:
+        if len(p) > 2:
             meeting = sylvester_interpolated(p, [[n * c for c in column] for n, column in enumerate(p)][1:])
+            if meeting is None:  # some are one everywhere: each once
+                p = _simple(p)
+                if p is None:
+                    return None
+                meeting = sylvester_interpolated(p, [[n * c for c in column] for n, column in enumerate(p)][1:])
+            meetings.append(meeting)
+    for meeting in meetings:
         if meeting is None:
             return None
         found += [z.real for z, _ in roots(meeting) if abs(z.imag) <= (1 + abs(z)) / 10]
     return found
+
+
+def _at_slope(part, k):
+    """A polynomial at xi_1 = k: for each power of lambda the coefficients, a polynomial in the slope xi_2/xi_1."""
+    columns: list[dict] = [{} for _ in range(1 + max(n for n, _, _ in part))]
+    for (n, a, b), c in part.items():
+        columns[n][b] = columns[n].get(b, 0) + c * k ** (a + b)
+    return [[column.get(b, mp.mpc(0)) for b in range(max(column, default=0) + 1)] for column in columns]
 
 
 def _simple(p):

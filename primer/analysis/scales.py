@@ -4,6 +4,7 @@ On logarithmic axes |lambda| as a function of k is a chain of straight pieces, t
 meet where three terms balance. Nothing else has a size: not |xi| = 1, nor any number of digits.
 """
 
+from fractions import Fraction
 from itertools import combinations, pairwise
 
 import mpmath as mp
@@ -34,6 +35,19 @@ def scales(P):
         if sizes and _meets(columns, heights, hull, s):
             found.append((s, min(sizes), max(sizes)))
     return found
+
+
+def homogeneity(D):
+    """q if lambda(k xi) = k^q lambda(xi) for all k > 0 on every branch of det M = D(lambda, xi); None if there is none.
+
+    Where all terms c lambda^n xi_1^a xi_2^b have the same n q + a + b.
+    """
+    (n, *powers), *others = D
+    slopes = {(sum(powers) - sum(rest), m - n) for m, *rest in others if (m, sum(rest)) != (n, sum(powers))}
+    if not slopes or any(not width for _, width in slopes):
+        return Fraction(0) if not slopes else None
+    found = {Fraction(rise, width) for rise, width in slopes}
+    return found.pop() if len(found) == 1 else None
 
 
 def _hull(points):

@@ -9,6 +9,7 @@ import mpmath as mp
 import numpy as np
 
 from primer.analysis import levels
+from primer.analysis.factors import factors
 from primer.analysis.poles import limit, limits
 from primer.analysis.puiseux import collected
 from primer.analysis.roots import ZERO, roots
@@ -70,32 +71,42 @@ def in_plane(symbol, real, known=()):
     with mp.workdps(PRECISE):
         half = mp.pi if real else 2 * mp.pi
         angles = [half * (m + mp.mpf("0.137")) / RAYS for m in range(RAYS)] + [mp.mpf(0), mp.pi / 2]
-        sizes = [size for angle in angles[::3] for size in scales(ray(D, angle))]
+        parts = factors(D)
+        sizes = [size for angle in angles[::3] for part in parts for size in scales(ray(part, angle))]
         if sizes:
             known = [*known, *_scanned(D, pencil, real, sizes)]
         turned = None
         best, where = max(known, key=lambda item: item[0])
         for angle in angles:
-            value, k = along_line(ray(D, angle), real, [(best, where)])
+            value, k = _along(parts, angle, real, [(best, where)])
             if value > best:
                 best, where, turned = value, k, angle
         if turned is not None and math.isfinite(best):
             width = half / RAYS
 
             def on_ray(angle):
-                return mp.mpf(along_line(ray(D, angle), real)[0])
+                return mp.mpf(_along(parts, angle, real)[0])
 
             best, angle = climbed(on_ray, turned - width, turned, turned + width, mp.mpf(best))
-            where = along_line(ray(D, angle), real)[1]
+            where = _along(parts, angle, real)[1]
         return float(best), float(where)
+
+
+def _along(parts, angle, real, known=()):
+    """(sup Re lambda, |xi| where) along a ray, over the factors of det M."""
+    found = [along_line(P, real, known) for part in parts if (P := ray(part, angle))]
+    return max(found, key=lambda item: item[0], default=(-math.inf, 0.0))
 
 
 def exact_growth(symbol, xi):
     """max Re lambda at one wavevector from the roots of det M, with many digits; -inf if there are none."""
     with mp.workdps(PRECISE):
         xi = [mp.mpf(x) for x in np.atleast_1d(xi)] + [mp.mpf(1)]
-        P = collected((((n, 0), c * xi[0] ** a * xi[1] ** b) for (n, a, b), c in symbol.determinant.items()))
-        return float(rate(P, mp.mpf(1))) if P else -math.inf
+        found = [-mp.inf]
+        for part in factors(symbol.determinant):
+            P = collected((((n, 0), c * xi[0] ** a * xi[1] ** b) for (n, a, b), c in part.items()))
+            found += [rate(P, mp.mpf(1))] if P else []
+        return float(max(found))
 
 
 def ray(D, angle):
@@ -137,7 +148,7 @@ def _scanned(D, pencil, real, sizes):
 def exact_rate(D, s, angle):
     """The growth rate at |xi| = 10^s in this direction."""
     with mp.workdps(PRECISE):
-        return rate(ray(D, mp.mpf(angle)), mp.mpf(10) ** mp.mpf(s))
+        return max(rate(ray(part, mp.mpf(angle)), mp.mpf(10) ** mp.mpf(s)) for part in factors(D))
 
 
 def _sharpened(D, s, angle):

@@ -17,7 +17,7 @@ from primer.equations.terms import (
     times,
     whole_power,
 )
-from primer.equations.text import PDEError, parse
+from primer.equations.text import PDEError, understand
 from primer.equations.tree import OPERATORS
 from primer.equations.unknowns import unknowns, uses
 from primer.equations.variables import MARK
@@ -26,8 +26,8 @@ SIZE = 5_000  # the longest right-hand side; a text is at most 600 symbols, but 
 NOT_MARCHED = "such equations can be judged (primer.verdict), not marched"
 
 
-def first_order(text, given=()):
-    """(fields, parameters, terms, divisors) of a text; ``given`` are the names of parameters that have values.
+def first_order(text, given=(), space=None, time=None, functions=()):
+    """(fields, parameters, terms, divisors) of a text; arguments as for :func:`primer.equations.stages.evolution`.
 
     Returns
     -------
@@ -41,7 +41,8 @@ def first_order(text, given=()):
     PDEError    for a constraint, a mixed time derivative, a second space variable, or what is not linear in the highest
                 time derivatives
     """
-    equations = parse(text)
+    source = understand(text, space, time, given if functions else (), (), dict(functions))
+    equations, text = source.equations, source.text
     used = uses(equations, ("i", "pi"))
     if any(base == "y" or "y" in own + around for base, own, around in used):
         raise PDEError(f"there is a second space variable, y: {NOT_MARCHED}")

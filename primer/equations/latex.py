@@ -1,6 +1,6 @@
 """Equations as LaTeX, as they are written in a text: derivatives as subscripts, quotients as fractions."""
 
-from primer.equations.text import parse, split_name
+from primer.equations.text import split_name, understand
 from primer.equations.tree import OPERATORS
 
 _LOWER = "alpha beta gamma delta epsilon zeta eta theta iota kappa lambda mu nu xi pi rho sigma tau upsilon phi chi psi"
@@ -10,13 +10,16 @@ _GREEK_NAMES = {name: rf"\{name}" for name in _GREEK} | {"eps": r"\varepsilon", 
 _SUM, _PRODUCT, _POWER, _ATOM = range(4)  # how tightly what stands at the top of a node binds
 
 
-def latex(text):
-    """The equations of a text as LaTeX, one string for each.
+def latex(text, space=None, time=None, functions=()):
+    """The equations of a text as LaTeX, one string for each; other arguments as for the right-hand side.
+
+    In x and t, whatever the text calls them, and with the functions written out.
 
     >>> print(*latex("u_t = v_x; v_t = eps*u*v_xx + u_x - v - sin(x)"))
     u_{t} = v_{x} v_{t} = \\varepsilon u v_{xx} + u_{x} - v - \\sin\\left(x\\right)
     """
-    return tuple(f"{_latex(left)[0]} = {_latex(right)[0]}" for left, right in parse(text))
+    source = understand(text, space, time, functions=dict(functions))
+    return tuple(f"{_latex(left)[0]} = {_latex(right)[0]}" for left, right in source.equations)
 
 
 def _latex(node):

@@ -134,6 +134,10 @@ class slope_of_sign(sp.Function):
         """Of a number."""
         return (sp.nan if z.is_zero else sp.S.Zero) if z.is_number and z.is_zero is not None else None
 
+    def fdiff(self, argindex=1):
+        """The slope: 0 as well, and none at 0."""
+        return self
+
 
 # sqrt(z^2) has a derivative that can be evaluated where z is real; that of sympy's Abs has not.
 _CALLS = {"abs": lambda z: sp.sqrt(z**2), "sign": sign}

@@ -65,8 +65,10 @@ class Evolution:
 
 
 @lru_cache(maxsize=256)
-def evolution(text, given=()):
+def evolution(text, given=(), space=None, time=None, functions=()):
     """The :class:`Evolution` of a text; ``given`` is a tuple of the names of the parameters that have values.
+
+    ``space`` and ``time`` are what the text calls its variables, ``functions`` pairs (name, text or function).
 
     Raises
     ------
@@ -76,7 +78,7 @@ def evolution(text, given=()):
     >>> print(toy.fields, toy.parameters, toy.stages[0].slots, toy.orders)
     ('u', 'v') ('eps',) ((1, 1), (0, 0), (1, 2), (0, 1), (1, 0)) (1, 2)
     """
-    fields, parameters, terms, divisors = first_order(text, given)
+    fields, parameters, terms, divisors = first_order(text, given, space, time, functions)
     return _Lowering(len(fields)).evolution(text, fields, parameters, terms, divisors)
 
 

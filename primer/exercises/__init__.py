@@ -3,6 +3,16 @@
 Another seed gives another student other numbers; without one everybody has those of the notebook.
 """
 
+from primer.exercises.cidr_proofs import (
+    ask_07_5,
+    ask_07_6,
+    ask_07_7,
+    ask_07_8,
+    check_07_5,
+    check_07_6,
+    check_07_7,
+    check_07_8,
+)
 from primer.exercises.cidr_theorem import ask_07_1, ask_07_2, ask_07_3, check_07_1, check_07_2, check_07_3
 from primer.exercises.granular_rheologies import ask_06_1, ask_06_2, ask_06_3, check_06_1, check_06_2, check_06_3
 from primer.exercises.grid_dependence import (
@@ -69,6 +79,10 @@ __all__ = [
     "ask_07_1",
     "ask_07_2",
     "ask_07_3",
+    "ask_07_5",
+    "ask_07_6",
+    "ask_07_7",
+    "ask_07_8",
     "ask_08_1",
     "ask_08_2",
     "ask_08_3",
@@ -102,6 +116,10 @@ __all__ = [
     "check_07_1",
     "check_07_2",
     "check_07_3",
+    "check_07_5",
+    "check_07_6",
+    "check_07_7",
+    "check_07_8",
     "check_08_1",
     "check_08_2",
     "check_08_3",

@@ -12,9 +12,13 @@ from primer.granular.materials import DISCS_2011, EXAMPLE_COMPACTION, GLASS_BEAD
 from primer.granular.mode_growth import mode_growth
 from primer.granular.posedness import growth_limit, largest_growth, verdict
 from primer.granular.pressure import Stress, pressure, stress
+from primer.granular.regularised import RegularisedMuI
+from primer.granular.relaxing import MuIPhiI
 from primer.granular.rheology import CIDR, CSSM, Coulomb, IncompressibleMuI
 from primer.granular.state import BaseState, admit
 from primer.granular.stress_path import stress_path
+from primer.granular.text_law import TextLaw
+from primer.granular.viscous import DruckerPrager
 from primer.granular.waves import PlaneWave
 
 __all__ = [
@@ -29,12 +33,16 @@ __all__ = [
     "BaseState",
     "Compaction",
     "Coulomb",
+    "DruckerPrager",
     "Friction",
     "IncompressibleMuI",
     "MuI",
+    "MuIPhiI",
     "NoPressure",
     "PlaneWave",
+    "RegularisedMuI",
     "Stress",
+    "TextLaw",
     "admit",
     "coefficients",
     "conditions",

@@ -3,42 +3,34 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 
-from primer.checks import real, shown
+from primer.checks import real
 from primer.granular.compaction import Compaction
 from primer.granular.criteria import conditions, incompressible_criterion, neutral_inertial_numbers
-from primer.granular.friction import MuI
 from primer.granular.linearisation import coefficients
-from primer.granular.materials import EXAMPLE_COMPACTION, GLASS_BEADS
+from primer.granular.materials import EXAMPLE_COMPACTION
+from primer.granular.named import named, needs_phi
 from primer.granular.posedness import growth_limit, verdict
-from primer.granular.rheology import CIDR, CSSM, Coulomb, IncompressibleMuI
+from primer.granular.rheology import IncompressibleMuI
 from primer.granular.state import BaseState
-from primer.types import Law
-
-LAWS = ("coulomb", "mui", "cssm", "cidr")
 
 
-def report(law, p, phi, I, d=1.0, rho=1.0, mu1=None, mu2=None, I0=None, mu=None, phi0=None, eps=None, C0=None):
+def report(law, p, phi=None, I=None, d=1.0, rho=1.0, phi0=None, eps=None, C0=None, **options):
     """What can be said of a law at a base state, as a dict of plain values (None for what is infinite, of either sign).
 
-    ``law`` is one of LAWS; the other names are those of ``MuI``, ``Compaction`` and ``BaseState``, glass beads and
-    ``EXAMPLE_COMPACTION`` where left out.
+    ``law`` is one of ``named.LAWS``; the other names are those of ``named.named``, ``Compaction`` and ``BaseState``,
+    glass beads and ``EXAMPLE_COMPACTION`` where left out. phi may be left out where only the density knows it: then it
+    is 0.6, or Phi(I).
     """
-    if law not in LAWS:
-        raise ValueError(f"law must be one of {', '.join(LAWS)}, got {shown(law)}")
-    beads, packing = GLASS_BEADS.friction, EXAMPLE_COMPACTION
-    friction = MuI(_or(mu1, beads.mu1), _or(mu2, beads.mu2), _or(I0, beads.I0))
+    packing = EXAMPLE_COMPACTION
     compaction = Compaction(_or(phi0, packing.phi0), _or(eps, packing.eps), _or(C0, packing.C0))
-    state = BaseState(*(real(name, value, above=0) for name, value in zip(_STATE, (p, phi, I, d, rho), strict=True)))
-    constant = _or(mu, float(friction.mu(I)))
-    laws: dict[str, Callable[[], Law]] = {
-        "coulomb": lambda: Coulomb(constant),
-        "mui": lambda: IncompressibleMuI(friction),
-        "cssm": lambda: CSSM(constant, compaction),
-        "cidr": lambda: CIDR(friction, compaction),
-    }
-    made = laws[law]()
+    p, I, d, rho = (real(name, value, above=0) for name, value in (("p", p), ("I", I), ("d", d), ("rho", rho)))
+    made = named(law, compaction, I, d, rho, **options)
+    if phi is None:
+        if needs_phi(made):
+            raise ValueError(f"phi must be given for the law {law}, a function of the solids fraction, got None")
+        phi = float(made.Phi(I)) if hasattr(made, "Phi") else 0.6
+    state = BaseState(p, real("phi", phi, above=0), I, d, rho)
     c, holds, v = coefficients(made, state), conditions(made, state), verdict(made, state)
     answer = {
         "law": repr(made),
@@ -62,7 +54,8 @@ def report(law, p, phi, I, d=1.0, rho=1.0, mu1=None, mu2=None, I0=None, mu=None,
         "limit": _finite(growth_limit(made, state)),
         "reason": v.reason,
     }
-    if law == "mui":
+    if isinstance(made, IncompressibleMuI):
+        friction = made.friction
         says = incompressible_criterion(friction, I)
         answer |= {"n": float(says.n), "criterion_C": float(says.C)}
         answer["neutral_I"] = [float(value) for value in neutral_inertial_numbers(friction)]
@@ -95,9 +88,6 @@ def text(answer):
         f"limit of the largest growth rate as |xi| -> infinity: {limit}",
     ]
     return "\n".join(lines)
-
-
-_STATE = ("p", "phi", "I", "d", "rho")
 
 
 def _or(value, default):

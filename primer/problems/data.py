@@ -10,7 +10,7 @@ import numpy as np
 from primer.checks import shown
 from primer.equations.evaluate import Scalars, value
 from primer.equations.terms import Builder
-from primer.equations.text import PDEError, parse_expression, split_name
+from primer.equations.text import PDEError, Source, parse_expression, split_name
 from primer.equations.variables import canonical
 
 #: A text, a number, a tuple of samples on a grid of that many points, or a function of x.
@@ -50,13 +50,18 @@ def _datum(name, given):
     return tuple(array.tolist()) if array.ndim else array.item()
 
 
-def names(datum: Datum, fields: tuple[str, ...]) -> tuple[str, ...]:
-    """The parameters that occur in a datum."""
-    return tuple(_term(datum, fields)[1]) if isinstance(datum, str) else ()
+def is_function(given: Any) -> bool:
+    """Whether a value by keyword is a function, as a text or of Python, and no number."""
+    return callable(given) or (isinstance(given, str) and any(map(str.isalpha, given)))
 
 
-def _term(text, fields=()):
-    node = parse_expression(text)
+def names(datum: Datum, fields: tuple[str, ...], source: Source | None = None) -> tuple[str, ...]:
+    """The parameters that occur in a datum, a text in the variables of ``source``."""
+    return tuple(_term(datum, fields, source)[1]) if isinstance(datum, str) else ()
+
+
+def _term(text, fields=(), source=None):
+    node = parse_expression(text, source)
 
     def field(base, letters, node):
         raise PDEError(f"{base} is a field: data are texts in x and parameters", text, node.place)
@@ -72,7 +77,14 @@ def _has(term, kind):
     return term.kind == kind or any(_has(operand, kind) for operand in term.operands)
 
 
-def on(name: str, datum: Datum, x: np.ndarray, period: float, parameters: Mapping[str, Any]) -> np.ndarray:
+def on(
+    name: str,
+    datum: Datum,
+    x: np.ndarray,
+    period: float,
+    parameters: Mapping[str, Any],
+    source: Source | None = None,
+) -> np.ndarray:
     """A datum at the points x, in the numbers of x; complex where it is so.
 
     Raises
@@ -84,7 +96,7 @@ def on(name: str, datum: Datum, x: np.ndarray, period: float, parameters: Mappin
         found: Any = _sampled(datum, x, period, scalars)
     elif isinstance(datum, str):
         with np.errstate(all="ignore"):
-            found = value(_term(datum)[0], scalars, parameters, x=x)
+            found = value(_term(datum, (), source)[0], scalars, parameters, x=x)
     else:
         found = _called(name, datum, x) if callable(datum) else datum
     found = np.asarray(found)

@@ -16,12 +16,12 @@ from primer.equations.evaluate import Known, Scalars, known, tendencies, value
 from primer.equations.latex import latex
 from primer.equations.slopes import Linearisation, linearised
 from primer.equations.stages import Evolution, evolution
-from primer.equations.text import PDEError
+from primer.equations.text import PDEError, understand
 from primer.equations.variables import canonical
-from primer.problems.data import Datum, data, names, on
+from primer.problems.data import Datum, data, is_function, names, on
 from primer.types import ArrayLike, Derivative
 
-_OWN = ("text", "initial", "steady", "period", "self")  # what PDE(...) itself calls its arguments
+_OWN = ("text", "initial", "steady", "period", "space", "time", "self")  # what PDE(...) itself calls its arguments
 _MEANING = ("x", "y", "t", "i", "pi")
 
 
@@ -39,7 +39,9 @@ class PDE:
                     serves other grids. A second time derivative makes a field of the first: {"u": ..., "u_t": ...}
     steady          the same for the state from which Dist is measured; left out, that is the initial data
     period          the period in x; all boundaries are periodic. A float that is k math.pi stands for k pi
-    parameters      a number, real or complex, for each other name in the texts
+    space, time     what the texts call their variables, such as "r" and "tau"; by default x and t
+    parameters      a number, real or complex, for each other name in the texts; for a function f(u) of the equations a
+                    text such as "u^3 - u" or a function of Python
 
     Raises
     ------
@@ -65,6 +67,9 @@ class PDE:
     end: tuple[tuple[str, Datum], ...] | None
     period: float
     values: tuple[tuple[str, float | complex], ...]
+    space: str | None
+    time: str | None
+    functions: tuple[tuple[str, Any], ...]
     is_complex: bool
 
     def __init__(
@@ -74,16 +79,22 @@ class PDE:
         *,
         steady: Mapping[str, Any] | None = None,
         period: float = 2 * math.pi,
+        space: str | None = None,
+        time: str | None = None,
         **parameters: Any,
     ) -> None:
         parameters = {canonical(name): value for name, value in parameters.items()}  # nu is ν
         for name in parameters:
             if name in _MEANING:
                 raise PDEError(f"{name} has a meaning of its own and cannot be a parameter")
-        values = tuple((name, _number(name, parameters[name])) for name in sorted(parameters))
+        functions = {name: given for name, given in parameters.items() if is_function(given)}
+        values = tuple((name, _number(name, parameters[name])) for name in sorted(parameters.keys() - functions.keys()))
         put = partial(object.__setattr__, self)
         put("text", text)
         put("values", values)
+        put("space", space)
+        put("time", time)
+        put("functions", tuple(sorted(functions.items())))
         put("period", real("period", period, above=0, most=1e100))
         put("start", data("initial", self.fields, initial))
         put("end", None if steady is None else data("steady", self.fields, steady))
@@ -96,13 +107,15 @@ class PDE:
     def _check_names(self):
         given = dict(self.values)
         both = self.start + (self.end or ())
-        wanted = dict.fromkeys((*self.evolution.parameters, *(n for _, d in both for n in names(d, self.fields))))
+        told = (name for _, datum in both for name in names(datum, self.fields, self._source))
+        wanted = dict.fromkeys((*self.evolution.parameters, *told))
         for name in wanted:
             if name in _OWN:
                 raise PDEError(f"{name} is what an argument is called and cannot be a parameter: choose another name")
         missing = [name for name in wanted if name not in given]
         if missing:
-            raise PDEError(f"{missing[0]} has no value: give it one, as in PDE(..., {missing[0]}=1.0)")
+            name = self._source.outside(missing[0]) if self._source else missing[0]
+            raise PDEError(f"{name} has no value: give it one, as in PDE(..., {name}=1.0)")
         for name in given:
             if name not in wanted:
                 why = "is a field, with data of its own" if name in self.fields else "occurs in no equation and no data"
@@ -121,7 +134,17 @@ class PDE:
     @cached_property
     def evolution(self) -> Evolution:
         """The right-hand side as stages, made from the text."""
-        return evolution(self.text, tuple(name for name, _ in self.values))
+        return evolution(self.text, tuple(name for name, _ in self.values), *self._told)
+
+    @property
+    def _told(self):
+        return self.space, self.time, self.functions
+
+    @cached_property
+    def _source(self):
+        """What knows how the texts call x; None if they call it x."""
+        declared = self.space is not None or self.time is not None
+        return understand(self.text, self.space, self.time, (), (), dict(self.functions)) if declared else None
 
     @property
     def fields(self) -> tuple[str, ...]:
@@ -130,7 +153,7 @@ class PDE:
 
     @property
     def parameters(self) -> dict[str, float | complex]:
-        """The parameters and their values."""
+        """Parameters and values."""
         return dict(self.values)
 
     @property
@@ -153,7 +176,9 @@ class PDE:
 
     def _on(self, name, given, x):
         x = points(x)
-        return tuple(on(f"{name} {field}", datum, x, self.period, self.parameters) for field, datum in given)
+        return tuple(
+            on(f"{name} {field}", datum, x, self.period, self.parameters, self._source) for field, datum in given
+        )
 
     def forcing(self, x: ArrayLike) -> Known:
         """What the right-hand side needs of the parameters and of x alone, so that a time loop computes it once."""
@@ -193,11 +218,12 @@ class PDE:
 
     def latex(self) -> tuple[str, ...]:
         """The equations as LaTeX."""
-        return latex(self.text)
+        return latex(self.text, *self._told)
 
     def replace(self, **changes: Any) -> PDE:
         """The same problem with other values of parameters; also of ``initial``, ``steady`` and ``period``."""
-        kept = {"initial": dict(self.start), "steady": self.end and dict(self.end), "period": self.period}
+        kept: dict[str, Any] = {"initial": dict(self.start), "steady": self.end and dict(self.end)}
+        kept |= {"period": self.period, "space": self.space, "time": self.time, **dict(self.functions)}
         for name in changes:
             if name not in kept and name not in self.parameters:
                 raise PDEError(f"{shown(name)} is no parameter of this PDE, which has {', '.join(self.parameters)}")
@@ -209,6 +235,8 @@ class PDE:
             parts.append(f"steady={dict(self.end)!r}")
         if self.period != 2 * math.pi:
             parts.append(f"period={self.period!r}")
+        parts += [f"{name}={said!r}" for name in ("space", "time") if (said := getattr(self, name)) is not None]
+        parts += [f"{name}={function!r}" for name, function in self.functions]
         return f"PDE({', '.join(parts + [f'{name}={number!r}' for name, number in self.values])})"
 
 

@@ -25,7 +25,8 @@ class Picture:
         self.figure.set_dpi(_DPI)
         self.figure.get_layout_engine().set(rect=(0, 0, 1 - _RIGHT / layout["width"], 1))
         self.axes = np.ravel(axes)
-        self._frame = self._background = None
+        self._frames: list = [None] * len(self.axes)  # what each frame shows, and its pixels on white
+        self._pixels: list = [None] * len(self.axes)
 
     def drawn(self, answer, looks):
         """The axes with an answer on them."""
@@ -38,31 +39,31 @@ class Picture:
         """The picture of an answer, as bytes."""
         with styled(), rc_context({"axes.titley": 1.0}):  # titles that stay where they are
             self.drawn(answer, looks)
-            frame = tuple(
-                (ax.axison, *ax.get_xlim(), *ax.get_ylim(), ax.get_xlabel(), ax.get_ylabel()) for ax in self.axes
-            )
-            if frame != self._frame:
-                self._draw_frames()
-                self._frame = frame
-            self.figure.canvas.restore_region(self._background)
+            self._draw_frames()
+            np.asarray(self.figure.canvas.buffer_rgba())[:] = np.minimum.reduce(self._pixels)
             for ax in self.axes:
                 for artist in sorted(_contents(ax), key=lambda artist: artist.get_zorder()):
                     ax.draw_artist(artist)
         return png(self.figure.canvas)
 
     def _draw_frames(self):
-        """Lay the axes out around all that is in them, then keep a picture of the frames alone."""
+        """Lay the axes out around all that is in them, once; then draw the frames that are not as they were."""
         canvas = self.figure.canvas
-        if self._background is None:  # once: panels that jump about are no help to the eye
+        if self._frames[0] is None:  # panels that jump about are no help to the eye
             canvas.draw()
             self.figure.set_layout_engine("none")
-        shown = [artist for ax in self.axes for artist in _contents(ax) if artist.get_visible()]
-        for artist in shown:
-            artist.set_visible(False)
-        canvas.draw()
-        self._background = canvas.copy_from_bbox(self.figure.bbox)
-        for artist in shown:
-            artist.set_visible(True)
+        for k, ax in enumerate(self.axes):
+            frame = (ax.axison, *ax.get_xlim(), *ax.get_ylim(), ax.get_xlabel(), ax.get_ylabel())
+            if frame == self._frames[k]:
+                continue
+            hidden = [each for each in _contents(ax) if each.get_visible()]
+            hidden += [other for other in self.axes if other is not ax]
+            for artist in hidden:
+                artist.set_visible(False)
+            canvas.draw()
+            self._frames[k], self._pixels[k] = frame, np.array(canvas.buffer_rgba())
+            for artist in hidden:
+                artist.set_visible(True)
 
 
 def _contents(ax):

@@ -1,6 +1,7 @@
 """The answers of notebook 07 by other routes than the checkers take."""
 
 import numpy as np
+from scipy.optimize import brentq
 
 from primer import exercises
 from primer.granular import Friction
@@ -52,3 +53,42 @@ def truth_07_3(seed):
     found = [name for name, fails in failed.items() if fails]
     assert len(found) < 2
     return found[0] if found else "none"
+
+
+def truth_07_5(seed):
+    """By a difference of p + Y along p, with ||D|| held and Y its tangent plane."""
+    p, I, Y_p, Y_I = numbers(exercises.ask_07_5(seed).split("psi = 0")[0])
+
+    def stress(q):
+        return q + Y_p * (q - p) + Y_I * (I * np.sqrt(p / q) - I)
+
+    return (stress(p + 1e-5) - stress(p - 1e-5)) / 2e-5
+
+
+def truth_07_6(seed):
+    """By a difference of div u - 2 f ||D|| along the first velocity's gradient, about ||D|| = 1."""
+    text = exercises.ask_07_6(seed)
+    I, f, f_I = numbers(text.split("By Table")[0])
+    f = -f if "f = -" in text else f
+
+    def rule(g):
+        u_x, v_y = g + f - 1, f + 1  # div u = 2 f ||D||, compressed along the first axis
+        D = np.abs(u_x - v_y) / 2
+        return u_x + v_y - 2 * (f + f_I * (I * D - I)) * D
+
+    return (rule(1e-6) - rule(-1e-6)) / 2e-6
+
+
+def truth_07_7(seed):
+    """Straight friction has mu'(sI) = mu'(I), the limit of the estimate: its alpha and beta by quadrature."""
+    text = exercises.ask_07_7(seed)
+    m = numbers(text)[0]
+    straight = Friction(lambda I: 0.4 + m * I, lambda I: m + 0 * I)
+    part = straight.beta if "beta" in text else straight.alpha
+    return float(part(1.5) - part(0.5))
+
+
+def truth_07_8(seed):
+    """By a root of the yield condition in z."""
+    p, alpha, tau = numbers(exercises.ask_07_8(seed).split("a flow has")[1])[:3]
+    return brentq(lambda z: tau - alpha * p + p * p * (1 - z) / z, 1e-9, 1.0)
