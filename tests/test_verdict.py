@@ -17,8 +17,8 @@ from test_pencil import critical_state, granular, navier_stokes
 import primer.analysis.supremum as supremum
 import primer.analysis.verdict as judge
 from primer import Pencil, Verdict, growth_rates, max_growth, verdict
+from primer.analysis.extremes import is_real, largest, law_along_line
 from primer.analysis.laws import exact_symbol
-from primer.analysis.verdict import _along_line, _is_real, _supremum
 from primer.equations.text import PDEError
 
 ILL, WELL = "ill-posed", "well-posed"
@@ -132,7 +132,7 @@ def test_turing_bound():
 def test_the_supremum_says_at_which_wavenumber(text, k):
     """Re lambda = 1 - xi^2 is largest at 0; xi^2 - xi^4 at xi^2 = 1/2. Flat tops keep half the digits of the place."""
     symbol = exact_symbol(text)
-    _, where = _supremum(symbol, _along_line(symbol, True)[0], real=True)
+    _, where = largest(symbol, law_along_line(symbol, True)[0], real=True)
     assert where == pytest.approx(k, rel=1e-7)
 
 
@@ -358,10 +358,10 @@ def test_whether_xi_and_minus_xi_grow_alike():
                 int(rng.integers(0, 2)),
             )
             D = {(n, a + odd, b): factor * mp.mpc(0, 1) ** (a + b) * rng.normal() for n, a, b in powers}
-            assert _is_real(D)
+            assert is_real(D)
             for power, c in D.items():
                 for part, real in ((0.1, False), (1e-29, False), (1e-31, True)):
-                    assert _is_real(D | {power: c * (1 + part * mp.mpc(0, 1))}) is (real or len(D) == 1)
+                    assert is_real(D | {power: c * (1 + part * mp.mpc(0, 1))}) is (real or len(D) == 1)
 
 
 @pytest.mark.parametrize(
