@@ -1,6 +1,7 @@
 """Guards the evolution form: its pressure, by roots found without it, and its linearisation."""
 
 import math
+import warnings
 
 import mpmath as mp
 import numpy as np
@@ -204,3 +205,20 @@ def test_jamming_and_extremes_are_no_warnings():
     found = stress(law, 0.0, [1e-200, 1e-12, 1e12, 1e155], [0.6 - 1e-15, 0.5 + 1e-15, 0.55, 0.55])
     for p, reason in zip(found.p, found.reason, strict=True):
         assert np.isfinite(p) == (reason == "none")
+
+
+@pytest.mark.parametrize("law", LAWS[:2], ids=["CIDR", "CSSM"])
+@pytest.mark.parametrize(("d", "rho"), [(1.0, 1.0), (1e-150, 1e150), (1e150, 1e-300)])
+def test_hostile_flows_have_a_pressure_or_a_reason_and_no_warning(law, d, rho):
+    rng = np.random.default_rng(3)
+    some = np.array([0, 1e-320, 1e-160, 1e-30, 1.0, -1.0, -1e-30, 1e30, 1e160, 1e300, np.inf, -np.inf, np.nan])
+    div, D = rng.choice(some, 1000), np.abs(rng.choice(some, 1000))
+    phi = rng.choice([0.5, 0.55, 0.6, 0.6 - 1e-16, 0.5 + 1e-16, 0.4, 1e300, np.nan, -1.0, 0.599999999], 1000)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        found = stress(law, div, D, phi, d, rho)
+    good = found.reason == "none"
+    assert good.any()
+    for values in (found.p, found.T, found.I):
+        assert (np.isfinite(values) == good).all()
+        assert (values[good] > 0).all()

@@ -48,8 +48,10 @@ from primer.exercises.testing_a_pde import (
     check_02_3,
     check_02_4,
 )
+from primer.exercises.three_conditions import ask_11_1, ask_11_2, check_11_1, check_11_2
 from primer.exercises.what_can_be_saved import ask_10_1, ask_10_2, check_10_1, check_10_2
 from primer.exercises.what_ill_posed_means import ask_01_1, ask_01_2, ask_01_3, check_01_1, check_01_2, check_01_3
+from primer.exercises.when_freezing_lies import ask_12_1, ask_12_2, check_12_1, check_12_2
 from primer.exercises.write_it_yourself import ask_09_1, ask_09_2, check_09_1, check_09_2
 
 __all__ = [
@@ -90,6 +92,10 @@ __all__ = [
     "ask_09_2",
     "ask_10_1",
     "ask_10_2",
+    "ask_11_1",
+    "ask_11_2",
+    "ask_12_1",
+    "ask_12_2",
     "check_00_1",
     "check_00_2",
     "check_01_1",
@@ -127,4 +133,8 @@ __all__ = [
     "check_09_2",
     "check_10_1",
     "check_10_2",
+    "check_11_1",
+    "check_11_2",
+    "check_12_1",
+    "check_12_2",
 ]

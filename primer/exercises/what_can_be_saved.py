@@ -34,7 +34,7 @@ def check_10_1(answer: float, seed: int = 0) -> Feedback:
 
 
 def _second(seed):
-    return variant("10_2", seed, part=(0.25, 0.2, 0.4, 0.1), better=(2, 3, 5))
+    return variant("10_2", seed, part=(0.25, 0.4, 0.3), better=(2, 3))
 
 
 def ask_10_2(seed: int = 0) -> str:

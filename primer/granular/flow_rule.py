@@ -66,7 +66,8 @@ def root(rule):
     changes, rises = np.zeros(n, int), np.zeros(n, bool)
     first = before = here = np.zeros(0, bool)
     for rung in _RUNGS[::-1]:  # from the smallest pressure up
-        p = np.clip(rule.scale * rung**-2.0, _LEAST, MOST)
+        with np.errstate(over="ignore"):
+            p = np.clip(rule.scale * rung**-2.0, _LEAST, MOST)
         sign = rule.value(p) > 0
         if not first.size:
             first, here = sign, p

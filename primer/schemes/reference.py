@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, field
 from decimal import ROUND_FLOOR, Context
-from functools import lru_cache
+from functools import lru_cache, partial
 from typing import Any
 
 import numpy as np
@@ -20,15 +20,18 @@ from primer.schemes.lines import MAX_STEPS, stable_step, trace
 from primer.schemes.positive import certain, least
 from primer.schemes.runge_kutta import RK8
 from primer.schemes.solution import solve
+from primer.schemes.stiff import stiff_attempt
 from primer.types import ArrayLike
 
-# Grid points tried in turn, each judged by the next. Multiples of 8 fill a processor's vector registers.
+# Points tried in turn, each judged by the next. Multiples of 8 fill vector registers.
 _POINTS = (8, 16, 24, 32, 48, 64, 96, 128)
 # Measured at eps = 0: a step of 0.4 costs an error of at most 3.2e-11, which goes with the eighth power of the step.
 _STEP, _STEP_TOL = 0.4, 1e-10
 _MORE_STEPS = 1.3  # of the second march: an eighth of the first one's error in time
 _SAFETY = 2  # by which the difference of the two marches is multiplied
 _ROUND_OFF = 32 * np.finfo(float).eps  # times |a| + 2: about four times the largest error that was all round-off
+_STIFF, _OVERHEAD, _FAR = 1e7, 300, 1e3  # steps times (points squared and a bit), some 30 ms: then LSODA, up to t, |a|
+_ROUGH, _ROUGH_TOL = 3, 1e-9  # a rung of 32 points
 _TIMES = 10**5  # at which the fields of both marches fit into a gigabyte
 _PATIENCE = 1e8  # steps times points squared, some seconds: past this the first u = 0 is not asked for more exactly
 _LOOK_AHEAD = 4.0  # time up to which it is asked when u first touches 0: it swings lowest at t = 3
@@ -80,10 +83,10 @@ class Reference:
 def reference(toy: Toy | PDE, t: ArrayLike, tol: float = 1e-10, progress: bool = True) -> Any:
     """The solution of the toy system at the times t with an error of at most about ``tol``, or a refusal.
 
-    Fourier collocation in space and the fixed step ``RK8`` in time. The march is made twice, the second time with at
-    least a third more points and three tenths more steps; their difference, times 2, estimates the error of the first,
-    which is the answer. Round-off adds 32 units in the last place of |a| + 2. Points are added until the estimate is
-    below tol, that is until the spectrum has decayed.
+    Fourier collocation in space and the step ``RK8`` in time; or LSODA, where diffusion makes explicit steps many. The
+    march is made twice, the second time with at least a third more points and three tenths more steps (LSODA: a third
+    of the tolerance); their difference, times 2 (4), estimates the error of the first, which is the answer. Round-off
+    adds 32 units in the last place of |a| + 2. Points are added until the estimate is below tol.
 
     For eps > 0 all this is for times up to which u >= 0 everywhere, and no longer. As soon as u < 0 somewhere, wave k
     grows there like e^{eps k^2 |u| t}, while the solution's coefficients fall only exponentially with k: for k large
@@ -153,15 +156,11 @@ def _times(t: ArrayLike) -> np.ndarray:
 def _past(toy, t, tol, candidate, why):
     """The refusal, whose horizon is rounded down to what is printed and then held to be accepted itself."""
     horizon = float(Context(prec=6, rounding=ROUND_FLOOR).create_decimal(float(candidate)))
-    while horizon > 0 and not _accepted(toy, horizon, tol):
+    while horizon > 0 and _best(toy, np.array([horizon]), tol)[2] != 1:
         horizon *= 0.9
     return PastHorizon(
         f"t must be <= {horizon!r}, the horizon of {toy} at tol = {tol:g}, got {t:.6g}: there {why}", horizon
     )
-
-
-def _accepted(toy, t, tol):
-    return _best(toy, np.array([t]), tol)[2] == 1
 
 
 @lru_cache(maxsize=256)
@@ -170,13 +169,15 @@ def _touch(toy, until):
     if toy.a <= 0:
         return 0.0
     reached, tol = 0.0, 4 * _round_off(toy)
+
+    def margin(times, rung, tol=tol):
+        states, error, _ = _attempt(toy, times, tol, rung)
+        return np.nan_to_num(least(states[:, 0]) - error, nan=-1.0, posinf=-1.0, neginf=-1.0)
+
+    if certain(partial(margin, rung=_ROUGH, tol=_ROUGH_TOL), until) == until:  # far from 0 there is no need for digits
+        return math.inf
     for rung in range(1, len(_POINTS) - 1):
-
-        def margin(times, rung=rung):
-            states, error, _ = _attempt(toy, times, tol, rung)
-            return np.nan_to_num(least(states[:, 0]) - error, nan=-1.0, posinf=-1.0, neginf=-1.0)
-
-        before, reached = reached, max(reached, certain(margin, until))
+        before, reached = reached, max(reached, certain(partial(margin, rung=rung), until))
         if reached == until:
             return math.inf
         n = _POINTS[min(rung + 2, len(_POINTS) - 1)]
@@ -188,10 +189,13 @@ def _touch(toy, until):
 def _best(toy, times, tol, progress=False):
     """(states, error, how many times are good, whether u < 0 was met), with as many points as it takes."""
     most, first = 0, _first(tol)
-    for rung in range(first, len(_POINTS) - 1):
-        states, error, below = _attempt(toy, times, tol / 4 ** (rung - first), rung, progress)
-        most = max(most, _good(error, tol))
-        if most == len(times):
+    for way in ({}, {"stiff": False}):  # what LSODA cannot do is left to short steps
+        for rung in range(first, len(_POINTS) - 1):
+            states, error, below = _attempt(toy, times, tol / 4 ** (rung - first), rung, progress, **way)
+            most = max(most, _good(error, tol))
+            if most == len(times):
+                return states, error, most, below
+        if _work(toy, times[-1], tol, first) <= _STIFF:
             break
     return states, error, most, below
 
@@ -211,10 +215,13 @@ def _round_off(toy):
     return _ROUND_OFF * (abs(toy.a) + 2)
 
 
-def _attempt(toy, times, tol, rung, progress=False):
+def _attempt(toy, times, tol, rung, progress=False, stiff=True):
     """(states (m, 2, n), error (m,), whether u < 0) at ascending times, on a rung's n points, judged by the next."""
     n, finer = _POINTS[rung], _POINTS[rung + 1]
     step, finer_step = _step(toy, tol, n), _step(toy, tol, finer)
+    stiff = stiff and max(times[-1], abs(toy.a)) <= _FAR and _work(toy, times[-1], tol, rung) > _STIFF
+    if stiff and (found := stiff_attempt(toy, n, finer, times, tol)):
+        return found[0], found[1] + _round_off(toy), found[2]
     if times[-1] > MAX_STEPS * finer_step:
         raise ValueError(f"t must be <= {MAX_STEPS * finer_step:.3g}, {MAX_STEPS} steps for {toy}, got {times[-1]:g}")
     gaps = times.copy()
@@ -225,6 +232,11 @@ def _attempt(toy, times, tol, rung, progress=False):
     judge, depth = _trace(toy, finer, gaps, many, progress)
     apart = np.abs(states @ transfer(n, finer) - judge).max(axis=(1, 2))
     return states, _SAFETY * apart + _round_off(toy), depth[-1] != 0
+
+
+def _work(toy, t, tol, rung):
+    """Of the two explicit marches to time t: steps times points squared, and a bit."""
+    return sum(t / _step(toy, tol, n) * (n * n + _OVERHEAD) for n in _POINTS[rung : rung + 2])
 
 
 def _trace(toy, n, gaps, counts, progress):
