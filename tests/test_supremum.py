@@ -11,7 +11,7 @@ import pytest
 
 import primer.analysis.supremum as supremum
 from primer import Pencil
-from primer.analysis.extremes import is_real, largest, law_along_line, law_in_plane
+from primer.analysis.extremes import is_real, law_along_line, law_in_plane, supremum_of
 from primer.analysis.laws import exact_symbol
 
 BILAPLACIAN = "u_xxxx - 2*u_xxyy - u_yyyy"
@@ -20,8 +20,9 @@ BILAPLACIAN = "u_xxxx - 2*u_xxyy - u_yyyy"
 def largest(text, **parameters):
     symbol = exact_symbol(text, **parameters)
     real = is_real(symbol.determinant)
-    law = (law_along_line if symbol.dim == 1 else law_in_plane)(symbol, real)[0]
-    return largest(symbol, law, real)
+    signs = (1,) if real else (1, -1)
+    law = (law_along_line(symbol, signs) if symbol.dim == 1 else law_in_plane(symbol, real))[0]
+    return supremum_of(symbol, law, real, signs)
 
 
 @pytest.mark.parametrize(

@@ -31,7 +31,7 @@ def _on_line(symbol, sign):
         return [{(n, a): c * sign**a for (n, a, _), c in part.items()} for part in factors(symbol.determinant)]
 
 
-def largest(symbol, law, real, signs):
+def supremum_of(symbol, law, real, signs):
     """(sup Re lambda, |xi| where), given that the fastest ``law`` is bounded."""
     D = symbol.determinant
     known = []

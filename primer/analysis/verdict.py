@@ -7,7 +7,7 @@ from typing import Any, TypeAlias, overload
 
 from primer.analysis.drift import BEYOND
 from primer.analysis.each import each
-from primer.analysis.extremes import is_real, largest, law_along_line, law_in_plane
+from primer.analysis.extremes import is_real, law_along_line, law_in_plane, supremum_of
 from primer.analysis.fitted import computed
 from primer.analysis.half_lines import half_lines
 from primer.analysis.laws import NotPolynomialError, determined, exact_symbol
@@ -167,7 +167,7 @@ def _judged(symbol, basis=None, half=False):
     if symbol.dim == 2 and (free := undetermined(D)):
         toward = _written(_in_their_space(free, basis))
         return undecided(f"waves in the direction {toward} are left free, as det M vanishes there; elsewhere {law}")
-    bound, k = largest(symbol, law, real, signs)
+    bound, k = supremum_of(symbol, law, real, signs)
     short = f"for short waves {law}" if law.coefficient else "for short waves Re lambda vanishes"
     if math.isinf(bound):
         at = f"near |xi| = {k:.4g}, where a time derivative drops out" if k else "as |xi| -> 0"
