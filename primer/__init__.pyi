@@ -9,6 +9,8 @@ from . import scenes as scenes
 from . import schemes as schemes
 from . import study as study
 from . import view as view
+from .analysis.conditions import Conditions as Conditions
+from .analysis.conditions import conditions as conditions
 from .analysis.directions import MaxGrowth as MaxGrowth
 from .analysis.directions import max_growth as max_growth
 from .analysis.laws import growth_laws as growth_laws

@@ -15,6 +15,7 @@ from primer.claims import report as claims_report
 from primer.diagnosing import add_command as add_diagnose
 from primer.lab import add_command as add_lab
 from primer.region_command import add_command as add_region
+from primer.region_command import add_conditions
 from primer.run import add_command as add_run
 from primer.site import add_command as add_site
 from primer.terminal import Parser, coloured
@@ -61,6 +62,7 @@ def _parser():
     commands = parser.add_subparsers(metavar="COMMAND", required=True)
     _add_verdict(commands)
     add_region(commands, _assignment)
+    add_conditions(commands, _assignment)
     add_run(commands)
     add_diagnose(commands)
     add_granular(commands)

@@ -1,4 +1,4 @@
-"""The command ``primer region``: for which values of one or two names equations are ill posed."""
+"""The commands ``primer region`` and ``primer conditions``: for which values equations are ill posed."""
 
 import argparse
 import json
@@ -44,6 +44,53 @@ def add_command(commands, assignment):
     sub.add_argument("--plot", type=Path, metavar="FILE", help="a picture: .svg, .png or .pdf")
     sub.add_argument("--json", action="store_true", help="print one JSON object")
     sub.set_defaults(command=_region)
+
+
+def add_conditions(commands, assignment):
+    """Add ``primer conditions`` to the subcommands of a parser."""
+    sub = commands.add_parser(
+        "conditions",
+        help="for which values is a PDE ill-posed, in symbols?",
+        description="Leave names without a value, and get the conditions under which a PDE is ill-posed, each held to "
+        "the verdict at random points. How equations are written: primer help equations.",
+        epilog="example: primer conditions 'u_t = v_x; v_t = eps*u*v_xx + u_x - v - sin(x)'",
+        allow_abbrev=False,
+    )
+    sub.add_argument("pde", metavar="PDE", help="such as 'u_t = a*u_xx'; - reads it from standard input")
+    sub.add_argument(
+        "--at", "--set", nargs="+", action="extend", default=[], type=assignment, metavar="NAME=VALUE", help="known"
+    )
+    sub.add_argument("--uniform", action="store_true", help="all derivatives of the base state are 0")
+    sub.add_argument("--space", metavar="NAMES", help="what the space variables are called, such as r, or x,z")
+    sub.add_argument("--time", metavar="NAME", help="what time is called (default: t)")
+    sub.add_argument("--order", choices=("full", "maximal"), default="full", help="which terms to keep (default: full)")
+    sub.add_argument("--direction", nargs=2, type=float, metavar=("X", "Y"), help="of two: only waves along it")
+    sub.add_argument("--json", action="store_true", help="print one JSON object")
+    sub.set_defaults(command=_conditions)
+
+
+def _conditions(options):
+    from primer.analysis.conditions import conditions
+
+    text = sys.stdin.read() if options.pde == "-" else options.pde
+    functions = {name: value for name, value in options.at if isinstance(value, str)}
+    at = {name: value for name, value in options.at if name not in functions}
+    declared: dict[str, Any] = {"uniform": options.uniform, "space": options.space, "time": options.time}
+    declared |= {"order": options.order, "direction": options.direction}
+    found = conditions(text, at=at, **{**declared, **functions})
+    if not options.json:
+        return str(found)
+    cases = [
+        {
+            "condition": str(case.condition),
+            "kind": str(case.kind),
+            "growth": None if case.growth is None else str(case.growth),
+            "exponent": float(case.exponent),
+        }
+        for case in found.cases
+    ]
+    told = {"names": list(found.names), "cases": cases, "otherwise": str(found.otherwise), "checked": found.checked}
+    return json.dumps(told | {"withdrawn": list(map(str, found.withdrawn))}, indent=1)
 
 
 def _range(text):
