@@ -220,3 +220,14 @@ def test_jupyterlab_starts_on_the_first_notebook_and_its_failure_is_told(tmp_pat
     with pytest.raises(SystemExit):
         main(["lab"])
     assert capsys.readouterr().err.rstrip().endswith("required: FOLDER")
+
+
+def test_the_newer_lessons_are_thin():
+    """The targets of the course, which the lessons from 09 on meet; ``python tests/course_table.py`` prints all."""
+    from course_table import measured
+
+    for path in LESSONS[9:]:
+        minutes, lines, _, longest = measured(path)
+        assert minutes <= 45, path.name
+        assert lines <= 50, path.name
+        assert longest <= 120, path.name
