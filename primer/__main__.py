@@ -18,6 +18,7 @@ from primer.region_command import add_command as add_region
 from primer.region_command import add_conditions
 from primer.run import add_command as add_run
 from primer.site import add_command as add_site
+from primer.slides import add_command as add_slides
 from primer.terminal import Parser, coloured
 
 _GREETING = """Welcome to primer: change one number, and watch a system of PDEs stop making sense.
@@ -68,6 +69,7 @@ def _parser():
     add_granular(commands)
     add_lab(commands)
     add_site(commands)
+    add_slides(commands)
     _add_claims(commands)
     _add_help(commands)
     return parser

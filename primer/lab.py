@@ -130,20 +130,25 @@ def _serve(command):
 
     It has a session of its own, so that Ctrl-C does not reach it a second way.
     """
-    server = subprocess.Popen(command, stdin=subprocess.DEVNULL, start_new_session=True)
+    server, early = None, []
 
     def stop(number, frame):
-        raise KeyboardInterrupt
+        if server is not None:
+            raise KeyboardInterrupt
+        early.append(number)  # no sooner than there is a server to end
 
     before = {}
     with suppress(ValueError):  # only the main thread may
         before = {number: signal.signal(number, stop) for number in _signals()}
     try:
+        server = subprocess.Popen(command, stdin=subprocess.DEVNULL, start_new_session=True)
+        if early:
+            raise KeyboardInterrupt
         return server.wait()
     finally:
         for number in before:
             signal.signal(number, signal.SIG_IGN)  # not twice
-        if server.poll() is None:
+        if server is not None and server.poll() is None:
             server.terminate()
             try:
                 server.wait(10)

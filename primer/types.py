@@ -17,6 +17,16 @@ Derivative: TypeAlias = Callable[[np.ndarray, int], np.ndarray]
 Multiplier: TypeAlias = Callable[[np.ndarray, int], Numbers]
 
 
+class SympyEquation(Protocol):
+    """An equation of sympy, such as ``Eq(u.diff(t), u.diff(x, 2))``."""
+
+    @property
+    def lhs(self) -> Any: ...
+
+    @property
+    def rhs(self) -> Any: ...
+
+
 class Problem(Protocol):
     """What can be marched: a ``PDE``, a ``Toy``, a ``BackwardHeat``, or any object with these methods.
 

@@ -267,7 +267,7 @@ def test_ctrl_c_returns_what_was_recorded():
 def test_ctrl_c_stops_the_compiled_loop(ctrl_c):
     code = (
         "from primer import Toy, ftcs; from primer.schemes.block import Block; ftcs(Toy(1.5), t_end=10);"
-        "march = Block.march; Block.march = lambda block: (print('go', flush=True), march(block));"
+        "march = Block.march; Block.march = lambda *all: (print('go', flush=True), march(*all));"
         "run = ftcs(Toy(1.5), t_end=1e6, record_every=100_000); print(run.stop.name, run.t.size, run.t_stop < 1e6)"
     )
     process = subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, text=True)

@@ -37,6 +37,7 @@ FLOORS = [
     "view",
     "lab",
     "site",
+    "slides",
     "run",
     "diagnosing",
     "region_command",

@@ -80,8 +80,11 @@ def test_kinds_are_those_of_the_diagnosis(seed):
         foreseen = diagnose(Toy(a), run.n, dt, T_END)
         near = any(0.7 * T_END < t < 1.6 * T_END for t in (measured, gentle, foreseen.t_blow_up))
         # Told apart by a factor of 1.5 in time, which two routes may see either side of.
-        if not near and not 1.2 * measured < gentle < 2 * measured:
-            assert kind is foreseen.kind, (a, run.n, dt, foreseen)
+        if near or 1.2 * measured < gentle < 2 * measured:
+            continue
+        # A smaller step only puts it off: the diagnosis names what came first, the scene what no step cures.
+        both = kind is Kind.ILL_POSED and 2 * measured <= gentle < math.inf
+        assert foreseen.kind in ((Kind.SCHEME, kind) if both else (kind,)), (a, run.n, dt, foreseen)
 
 
 @pytest.mark.parametrize(

@@ -11,17 +11,18 @@ import pytest
 
 import primer.analysis.supremum as supremum
 from primer import Pencil
+from primer.analysis.extremes import is_real, law_along_line, law_in_plane, supremum_of
 from primer.analysis.laws import exact_symbol
-from primer.analysis.verdict import _along_line, _in_plane, _is_real, _supremum
 
 BILAPLACIAN = "u_xxxx - 2*u_xxyy - u_yyyy"
 
 
 def largest(text, **parameters):
     symbol = exact_symbol(text, **parameters)
-    real = _is_real(symbol.determinant)
-    law = (_along_line if symbol.dim == 1 else _in_plane)(symbol, real)[0]
-    return _supremum(symbol, law, real)
+    real = is_real(symbol.determinant)
+    signs = (1,) if real else (1, -1)
+    law = (law_along_line(symbol, signs) if symbol.dim == 1 else law_in_plane(symbol, real))[0]
+    return supremum_of(symbol, law, real, signs)
 
 
 @pytest.mark.parametrize(

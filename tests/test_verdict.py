@@ -14,11 +14,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from test_pencil import critical_state, granular, navier_stokes
 
+import primer.analysis.extremes as extremes
 import primer.analysis.supremum as supremum
-import primer.analysis.verdict as judge
 from primer import Pencil, Verdict, growth_rates, max_growth, verdict
+from primer.analysis.extremes import is_real, law_along_line, supremum_of
 from primer.analysis.laws import exact_symbol
-from primer.analysis.verdict import _along_line, _is_real, _supremum
 from primer.equations.text import PDEError
 
 ILL, WELL = "ill-posed", "well-posed"
@@ -132,7 +132,7 @@ def test_turing_bound():
 def test_the_supremum_says_at_which_wavenumber(text, k):
     """Re lambda = 1 - xi^2 is largest at 0; xi^2 - xi^4 at xi^2 = 1/2. Flat tops keep half the digits of the place."""
     symbol = exact_symbol(text)
-    _, where = _supremum(symbol, _along_line(symbol, True)[0], real=True)
+    _, where = supremum_of(symbol, law_along_line(symbol, (1,))[0], real=True, signs=(1,))
     assert where == pytest.approx(k, rel=1e-7)
 
 
@@ -334,7 +334,7 @@ def test_an_undecided_verdict_claims_nothing():
 )
 def test_computed_growth_beyond_the_law_is_said(text, seen, doubt, monkeypatch):
     asked = []
-    monkeypatch.setattr(judge, "exact_growth", lambda symbol, xi: asked.append(xi) or seen[len(asked) - 1])
+    monkeypatch.setattr(extremes, "exact_growth", lambda symbol, xi: asked.append(xi) or seen[len(asked) - 1])
     found = verdict(text)
     assert [math.hypot(*xi) for xi in asked] == pytest.approx([1e5, 1e7], rel=1e-14)
     said = [f"{max(rate, 0.0):.4g}" for rate in seen]
@@ -358,10 +358,10 @@ def test_whether_xi_and_minus_xi_grow_alike():
                 int(rng.integers(0, 2)),
             )
             D = {(n, a + odd, b): factor * mp.mpc(0, 1) ** (a + b) * rng.normal() for n, a, b in powers}
-            assert _is_real(D)
+            assert is_real(D)
             for power, c in D.items():
                 for part, real in ((0.1, False), (1e-29, False), (1e-31, True)):
-                    assert _is_real(D | {power: c * (1 + part * mp.mpc(0, 1))}) is (real or len(D) == 1)
+                    assert is_real(D | {power: c * (1 + part * mp.mpc(0, 1))}) is (real or len(D) == 1)
 
 
 @pytest.mark.parametrize(
