@@ -38,7 +38,8 @@ def draw_region(axes, region):
     else:
         for value in region.boundaries:
             axes.axvline(value, color="black", lw=1.2)
-            axes.annotate(f"{value:.6g}", (value, 1.0), ha="center", va="bottom", fontsize=8)
+            words = axes.annotate(f" {value:.6g} ", (value, 0.97), ha="left", va="top", fontsize=8)
+            words.set_bbox({"facecolor": "white", "edgecolor": "none", "pad": 1})
         for place, _ in region.isolated:
             axes.plot(place[region.names[0]], 0.5, "o", color="black", mfc="none", ms=8)
         axes.set_yticks([])
