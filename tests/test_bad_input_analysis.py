@@ -43,13 +43,26 @@ LAW, SOIL, STATE = CIDR(BEADS, PILE), CSSM(0.4, PILE), BaseState(0.2, 0.55, 0.1)
 WAVE = Pencil(lambda xi: np.array([[0, -1j * xi], [-1j * xi, 0]]), np.eye(2))
 PLANE = Pencil(lambda xi: [[xi[0] ** 2 + xi[1] ** 2]], [[1.0]])
 MANY = np.ones(2 * 10**7)  # wavenumbers; their matrices would fill the memory
+
+
+def not_numbers(given):
+    """Whether it is no array of real numbers at all."""
+    try:
+        array = np.asarray(given)
+    except ValueError:
+        return True
+    return (array.dtype.kind not in "iuf" and not isinstance(given, int)) or isinstance(given, bool)
+
+
 FAR = (*ARRAY, 1e200, MANY)
 LAWS = (*THING, CIDR, PILE)
+WAVES = granular.PlaneWave(LAW, STATE)
 STATES = (*THING, BaseState, PILE)
 STATE_ARRAY = BaseState([0.1, 0.2], 0.55, 0.1)
 SHAPES = (np.zeros((2, 3)), [1.0], np.zeros(0), "x", None, {}, object(), np.nan * np.eye(2), np.eye(13))
 FLOW = {"p": 0.2, "phi": 0.55, "I": 0.1}
 FRACTION = (*POSITIVE, 1.1)
+NO_ARRAY = tuple(x for x in ARRAY if not_numbers(x))  # what is not finite has no pressure, and a reason
 INERTIAL = (*ARRAY, -1.0, [0.1, -0.1])
 OUTSIDE = (*ARRAY, 0.4, 0.6, 1.0, [0.55, 0.6])
 NUMBERS = {"p": (*ARRAY, np.ones(3)), "phi": (*ARRAY, 0.4, 0.7), "I": INERTIAL}
@@ -193,11 +206,43 @@ TABLE = {
          "d": [x for x in POSITIVE if x is not None], "mu1": [x for x in POSITIVE if x is not None],
          "phi0": [x for x in POSITIVE if x is not None]},
     ),
+    **{f"{function.__name__}": (
+        function, {"law": LAW, "div": 0.0, "D": 1.0, "phi": 0.55, "d": 1.0, "rho": 1.0},
+        {"law": (*LAWS, Coulomb(0.4)), **dict.fromkeys(("div", "D", "phi"), NO_ARRAY), "d": ARRAY, "rho": ARRAY},
+    ) for function in (granular.pressure, granular.stress)},
+    "PlaneWave": (granular.PlaneWave, {"law": LAW, "state": STATE}, {
+        "law": LAWS, "state": (*STATES, STATE_ARRAY), "angle": ("x", 1j, np.nan, [1.0]),
+        "period": ("x", 0, -1.0, np.nan),
+        "amplitude": REAL, "modes": (*INTEGER, 0),
+    }),
+    "march_waves": (granular.march_waves, {"problem": WAVES, "n": 8, "t_end": 1e-3}, {
+        "problem": (*THING, LAW), "n": (*INTEGER, 0, HUGE), "t_end": POSITIVE,
+    }),
+    "mode_growth": (granular.mode_growth, {"run": granular.march_waves(WAVES, 8, 1e-3)}, {"run": (*THING, LAW)}),
+    "stress_path": (granular.stress_path, {"law": LAW, "state": STATE, "strain": 0.1, "points": 4}, {
+        "law": (*LAWS, Coulomb(0.4)), "state": (*STATES, STATE_ARRAY), "strain": POSITIVE,
+        "points": (*INTEGER, 0, HUGE),
+    }),
+    "localise": (granular.localise, {"law": LAW, "state": STATE, "n": 8, "strain": 1e-3}, {
+        "law": (*LAWS, Coulomb(0.4)), "state": (*STATES, STATE_ARRAY), "n": (*INTEGER, 0, HUGE), "strain": POSITIVE,
+    }),
+    "region": (
+        lambda pde, vary, **rest: primer.region(pde, vary, **{"progress": False} | rest),
+        {"pde": "u_t = c*u_xx", "vary": {"c": (-1, 1)}},
+        {"pde": (None, 3, b"x", object()), "vary": ("c", None, 3, {}, {"c": 1}, {"c": (1, 1)}, {"c": (1, np.nan)}),
+         "n": ("x", 0, 1.5, HUGE)},
+    ),
+    "conditions": (
+        lambda text, **rest: primer.conditions(text, **rest), {"text": "u_t = c*u_xx"},
+        {"text": (None, 3, b"x", object()), "at": ("x", 3, [1]), "order": ("x", None, 3), "check": ("x", -1, 1.5)},
+    ),
 }  # fmt: skip
 
 #: Other names by which a sentence may speak of an argument.
 STATE_SAYS = ["p", "phi", "state"]
 CALLED = {name: {"state": STATE_SAYS, "law": ["state", "law"]} for name in TABLE}
+CALLED["conditions"] = {"text": ["equations"]}
+CALLED["region"] = {"pde": ["equations"], "vary": ["vary", "q", "c"]}
 CALLED["max_growth"] = {"k": ["k", "xi"]}
 
 
@@ -215,7 +260,15 @@ def test_what_cannot_be_used_gets_one_sentence(name):
 
 #: What is given back, or raised, and never called with arguments of one's own.
 RESULTS = {"Diagnosis", "GridThreshold", "Lines", "MaxGrowth", "PDEError", "PastHorizon", "Reference", "Run", "Stop"}
-RESULTS |= {"Verdict", "Examination", "PDE"}  # tests/test_pde.py has the bad input of PDE
+RESULTS |= {
+    "Verdict",
+    "Examination",
+    "Region",
+    "Conditions",
+    "NoPressure",
+    "Stress",
+    "PDE",
+}  # tests/test_pde.py has the bad input of PDE
 
 
 @pytest.mark.parametrize("room", [primer, granular, study], ids=lambda room: room.__name__)

@@ -416,22 +416,22 @@ def test_the_bound_is_the_growth_at_the_worst_finite_wavenumber():
     [
         ((False, "undecided", np.nan, np.nan, np.nan, np.nan, 0.0),
          "the leading terms vanish together at a knife edge: the orders kept here do not decide"),
-        ((True, "ill-posed", 2.0, np.inf, np.inf, np.inf, -0.5),
+        ((True, "ill-posed", 2.0, np.inf, np.inf, np.inf, 0.5),
          "the growth is unbounded already at finite |xi|, at 60 degrees from the major compressive axis, "
          "because the pressure cannot keep div u = 0"),
-        ((False, "ill-posed", 2.0, 1.25, np.inf, np.inf, 0.0),
+        ((False, "ill-posed", 2.0, 1.25, np.inf, np.inf, 0.5**0.5),
          "the growth rate rises like 1.25 |xi|^2 at 45 degrees from the major compressive axis"),
         ((False, "ill-posed", 1.0, 0.5, np.inf, np.inf, 1.0),
          "the growth rate rises like 0.5 |xi| at 0 degrees from the major compressive axis"),
-        ((False, "ill-posed", 2 / 3, 0.5, np.inf, np.inf, -1.0),
+        ((False, "ill-posed", 2 / 3, 0.5, np.inf, np.inf, 0.0),
          "the growth rate rises like 0.5 |xi|^(2/3) at 90 degrees from the major compressive axis, "
          "a direction it drifts to"),
         ((True, "well-posed", 2.0, -1.0, -np.inf, 0.0, 0.0),
          "every direction is damped, or neutral, as |xi| -> infinity"),
-        ((False, "well-posed", 0.0, 1.5, 1.5, 1.5, 0.0),
+        ((False, "well-posed", 0.0, 1.5, 1.5, 1.5, 0.5**0.5),
          "the largest growth rate tends to 1.5 as |xi| -> infinity, at 45 degrees from the major compressive axis: "
          "growth, but bounded"),
-        ((False, "well-posed", 0.0, -1.5, -1.5, 0.0, 0.0),
+        ((False, "well-posed", 0.0, -1.5, -1.5, 0.0, 0.5**0.5),
          "the largest growth rate tends to -1.5 as |xi| -> infinity, at 45 degrees from the major compressive axis: "
          "damped"),
     ],

@@ -131,6 +131,8 @@ def conditions(
     well posed otherwise
     """
     check = integer("check", check, least=1)
+    if at is not None and not isinstance(at, dict):
+        raise TypeError(f"at must be a dict of base-state values such as {{'u': -0.5}}, got {shown(at)}")
     options = {"at": at, "order": order, "uniform": uniform, "space": space, "time": time, **parameters}
     try:
         of = family(text, None, **options)

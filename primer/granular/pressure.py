@@ -89,7 +89,7 @@ def stress(law: Law, div: ArrayLike, D: ArrayLike, phi: ArrayLike, d: ArrayLike 
     """
     a_law(law)
     if getattr(law, "incompressible", False):
-        raise ValueError(f"law must be compressible: the pressure of {shown(law)} is not a function of the flow")
+        raise ValueError(f"law must be compressible, for its pressure to be a function of the flow, got {shown(law)}")
     for name, value in (("d", d), ("rho", rho)):
         if not (real_array(name, value) > 0).all():
             raise ValueError(f"{name} must be > 0{' everywhere' if np.ndim(value) else ''}, got {shown(value)}")

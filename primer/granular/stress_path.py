@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from primer.checks import instance, integer, real
+from primer.checks import affordable, instance, integer, real, shown
 from primer.granular.pressure import stress
 from primer.granular.state import BaseState, admit
 from primer.types import Law
@@ -67,12 +67,15 @@ def stress_path(law: Law, state: BaseState, strain: float = 5.0, points: int = 1
     from scipy.integrate import solve_ivp
 
     instance("state", state, BaseState)
-    strain = real("strain", strain, above=0)
+    strain, points = real("strain", strain, above=0), integer("points", points, least=2)
+    affordable("points: six numbers at each", 48 * points, shown(points))
     tau = admit(law, state)
     if state.shape != ():
         raise ValueError(f"state must be a single state, got shape {state.shape}")
     if getattr(law, "incompressible", False):
-        raise ValueError("law must be compressible: without a change of volume there is no path to a critical state")
+        raise ValueError(
+            f"law must be compressible, as no volume changes on the way to a critical state, got {shown(law)}"
+        )
     f = float(law.f(state.p, state.phi, state.I))
     if not abs(f) < 1:
         raise ValueError(f"state must have |f| < 1, or no layer shears like this, got f = {f:g}")
@@ -85,7 +88,7 @@ def stress_path(law: Law, state: BaseState, strain: float = 5.0, points: int = 1
         near[0] = layer.solve(y[0], near[0])
         return -y * layer.rate(near[0][1])
 
-    times = np.linspace(0, end, integer("points", points, least=2))
+    times = np.linspace(0, end, points)
     found = solve_ivp(slope, (0, end), [state.phi], method="LSODA", rtol=1e-9, atol=1e-12, t_eval=times)
     phi = found.y[0]
     div = np.array([layer.rate(layer.solve(each, near[0])[1]) for each in phi])

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from primer.analysis.outcome import Verdict
-from primer.checks import instance, integer, real, shown
+from primer.checks import affordable, instance, integer, real, shown
 from primer.study.region_edges import edges, isolated
 from primer.study.region_fill import Asked, filled
 from primer.study.region_pieces import pieces_of
@@ -171,6 +171,7 @@ def _axes(vary, n):
     if not isinstance(vary, Mapping) or not 1 <= len(vary) <= 2:
         raise ValueError(f"vary must be a dict of one or two names, such as {{'u': (-2, 2)}}, got {shown(vary)}")
     many = _N[len(vary)] if n is None else integer("n", n, least=2)
+    affordable("n: the grid of values", 256 * many ** len(vary), shown(many))
     axes = []
     for name, given in vary.items():
         if not isinstance(name, str):
