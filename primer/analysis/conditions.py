@@ -77,13 +77,14 @@ class Conditions:
     withdrawn: tuple
 
     def kind(self, **values: float) -> Kind:
-        """What the conditions say at a point; all names must have a value.
+        """What the conditions say at a point; names of which no condition speaks may be left out.
 
         Raises
         ------
-        ValueError    for a name too many or too few
+        ValueError    for a name that was not left open, or without one that a condition needs
         """
-        if set(values) != set(self.names):
+        needed = {str(name) for case in self.cases for name in case.condition.free_symbols}
+        if not needed <= set(values) <= set(self.names):
             raise ValueError(f"values must be of {', '.join(self.names) or 'nothing'}, got {shown(sorted(values))}")
         return _kind(self.cases, self.otherwise, {n: sp.Rational(repr(real(n, v))) for n, v in values.items()})[0]
 

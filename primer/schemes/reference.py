@@ -85,8 +85,8 @@ def reference(toy: Toy | PDE, t: ArrayLike, tol: float = 1e-10, progress: bool =
 
     Fourier collocation in space and the step ``RK8`` in time; or LSODA, where diffusion makes explicit steps many. The
     march is made twice, the second time with at least a third more points and three tenths more steps (LSODA: a third
-    of the tolerance); their difference, times 2 (4), estimates the error of the first, which is the answer. Round-off
-    adds 32 units in the last place of |a| + 2. Points are added until the estimate is below tol.
+    of the tolerance); their difference, times 2 (4, and the tolerance with it), estimates the error of the first, which
+    is the answer. Round-off adds 32 units in the last place of |a| + 2. Points are added until this is below tol.
 
     For eps > 0 all this is for times up to which u >= 0 everywhere, and no longer. As soon as u < 0 somewhere, wave k
     grows there like e^{eps k^2 |u| t}, while the solution's coefficients fall only exponentially with k: for k large

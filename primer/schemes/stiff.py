@@ -16,7 +16,7 @@ from primer.problems.toy import Toy
 from primer.schemes.fourier import FOURIER, transfer
 from primer.schemes.grid import Grid
 
-_TOL, _LEAST = 1e-12, 5e-13  # no tighter is asked of LSODA: its rounding is too near
+_TOL, _LEAST = 3e-12, 5e-13  # no tighter is asked of LSODA: its rounding is too near
 _SAFETY = 4  # by which the difference of two marches is multiplied: its error is no regular function of its tolerance
 _STEPS = 10**6  # from one output to the next, at most
 _SAMPLES = 16  # per unit of time, of u < 0; but
@@ -35,14 +35,17 @@ def _matrix(n):
 def stiff_attempt(toy: Toy, n: int, finer: int, times: np.ndarray, tol: float) -> tuple | None:
     """(states (m, 2, n), error (m,), whether u < 0): the march twice, as ``reference`` has it; None if that cannot be.
 
-    The second march has more points, and a third of the tolerance.
+    The second march has more points, and a third of the tolerance. The error is never less than the tolerance of the
+    first, since two marches may agree by chance.
     """
-    if tol < _TOL or (loose := stiff_trace(toy, n, times, max(tol / 30, 2 * _LEAST))) is None:
+    asked = max(tol / 30, 2 * _LEAST)
+    if tol < _TOL or (loose := stiff_trace(toy, n, times, asked)) is None:
         return None
     tight = stiff_trace(toy, finer, times, max(tol / 100, _LEAST))
     if tight is None:
         return None
-    return loose[0], _SAFETY * np.abs(loose[0] @ transfer(n, finer) - tight[0]).max(axis=(1, 2)), tight[1]
+    apart = np.abs(loose[0] @ transfer(n, finer) - tight[0]).max(axis=(1, 2))
+    return loose[0], _SAFETY * apart + np.where(times > 0, asked, 0), tight[1]
 
 
 def stiff_trace(toy: Toy, n: int, times: np.ndarray, tol: float) -> tuple[np.ndarray, bool] | None:

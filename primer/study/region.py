@@ -26,7 +26,7 @@ _N = {1: 201, 2: 101}
 _COLUMNS = ("kind", "exponent", "coefficient", "bound", "loss")
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Region:
     """The verdict over one or two values; arrays are of the shape (n,), or (n, m) for two: first name, second name.
 
@@ -67,6 +67,10 @@ class Region:
     isolated: tuple
     computed: int
     subject: Subject
+
+    def __repr__(self):
+        pieces = ", ".join(f"{piece.kind} on {piece.share:.0%}" for piece in self.pieces)
+        return f"Region over {' and '.join(self.names)}: {pieces}; {len(self.boundaries)} boundary points"
 
     def verdict(self, **values: float) -> Verdict:
         """The verdict, computed, at one point."""
