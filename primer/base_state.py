@@ -4,7 +4,28 @@ import json
 
 # Those of granular/named.py, which help must not wait for.
 _LAWS = ("coulomb", "mui", "cssm", "cidr", "regularised", "mui-phii", "bingham", "herschel-bulkley", "text")
-_NAMES = ("law", "p", "phi", "I", "d", "rho", "mu1", "mu2", "I0", "mu", "phi0", "eps", "C0", "K", "n", "Y", "f")
+_NAMES = (
+    "law",
+    "p",
+    "phi",
+    "I",
+    "d",
+    "rho",
+    "mu1",
+    "mu2",
+    "I0",
+    "mu",
+    "phi0",
+    "eps",
+    "C0",
+    "K",
+    "n",
+    "c",
+    "Y",
+    "f",
+    "dim",
+    "lode",
+)
 
 
 def add_command(commands):
@@ -36,12 +57,21 @@ def add_command(commands):
     parser.add_argument("--mu", type=float, help="mu of Coulomb, CSSM, Bingham (default: mu(I) at the state)")
     parser.add_argument("--K", type=float, help="viscosity of Bingham, consistency of Herschel-Bulkley (default: 0.1)")
     parser.add_argument("--n", type=float, help="index of Herschel-Bulkley (default: 0.5)")
+    parser.add_argument("--c", type=float, help="cohesion of Bingham, Herschel-Bulkley, a pressure (default: 0)")
     parser.add_argument("--Y", help="for the law text: the yield stress, such as 'm*p*sqrt(I)'")
     parser.add_argument("--f", help="for the law text: the dilatancy (default: 0)")
     parser.add_argument("--set", action="append", metavar="NAME=VALUE", help="a parameter of the texts; repeatable")
     parser.add_argument("--phi0", type=float, help="random loose packing (default: 0.5)")
     parser.add_argument("--eps", type=float, help="width of the range of phi (default: 0.1)")
     parser.add_argument("--C0", type=float, help="scale of C(phi), a pressure (default: 1)")
+    parser.add_argument("--dim", type=int, default=2, help="2 or 3: over all directions of the sphere (default: 2)")
+    parser.add_argument(
+        "--lode",
+        type=float,
+        default=0.0,
+        help="with --dim 3: the Lode angle of D in radians, from -pi/6 (extension along one axis) to pi/6 (compression "
+        "along one axis; default: 0)",
+    )
     parser.add_argument("--json", action="store_true", help="print one JSON object")
     parser.set_defaults(command=_run)
 

@@ -171,6 +171,9 @@ TABLE = {
         granular.admit, granular.coefficients, granular.conditions, granular.growth_limit, linearise_law,
         granular.verdict, derive,
     )},
+    **{f"{function.__name__} in space": (function, {"law": LAW, "state": STATE, "dim": 3, "lode": 0.1}, {
+        "dim": (*INTEGER, 1, 2, 4, 3.0, HUGE, [3]), "lode": (*ARRAY, 1, 4, 0.5237, -0.5237, [0.1, 0.6]),
+    }) for function in (granular.verdict, granular.growth_limit)},
     "derive": (derive, {"law": LAW, "state": STATE, "order": "full"}, {
         "order": ("x", None, 3), "state": [STATE_ARRAY],
     }),
@@ -204,7 +207,7 @@ TABLE = {
         report, {"law": "cidr", **FLOW},
         {"law": ("x", None, 3, []), "p": (*POSITIVE, 9.0), "phi": (*FRACTION, 0.6), "I": POSITIVE,
          "d": [x for x in POSITIVE if x is not None], "mu1": [x for x in POSITIVE if x is not None],
-         "phi0": [x for x in POSITIVE if x is not None]},
+         "phi0": [x for x in POSITIVE if x is not None], "dim": (*INTEGER, 1, 4), "lode": (*REAL, 0.1)},
     ),
     **{f"{function.__name__}": (
         function, {"law": LAW, "div": 0.0, "D": 1.0, "phi": 0.55, "d": 1.0, "rho": 1.0},

@@ -7,6 +7,7 @@ import sys
 import pytest
 
 import primer.base_state
+import primer.granular as granular
 import primer.granular.command
 from primer.__main__ import main
 
@@ -102,6 +103,55 @@ def test_colours_are_for_terminals_alone(capsys, monkeypatch):
     json.loads(run(capsys, "verdict", "u_t = u_xx", "--json")[1])
     monkeypatch.setenv("NO_COLOR", "1")
     assert run(capsys, "verdict", "u_t = u_xx")[1] == plain
+
+
+FLOW = ["granular", "--law", "cidr", "--p", "0.2", "--phi", "0.55", "--I", "0.1"]
+
+
+def test_granular_in_space(capsys):
+    """The verdict is that of three dimensions, of which tests/test_granular_space.py has the oracle."""
+    code, out, err = run(capsys, *FLOW, "--dim", "3", "--lode", "0.1")
+    assert (code, err) == (0, "")
+    assert "hypotheses of the theorem, in the plane" in out
+    assert "Lode angle 0.1" in out
+    shown = [float(x) for x in out.split("direction (")[1].split(")")[0].split(",")]
+    assert len(shown) == 3
+    found = json.loads(run(capsys, *FLOW, "--dim", "3", "--lode", "0.1", "--json")[1])
+    assert (found["dim"], found["lode"]) == (3, 0.1)
+    assert found["direction"] == pytest.approx(shown, rel=1e-5)
+    assert sum(x * x for x in found["direction"]) == pytest.approx(1)
+    plane = json.loads(run(capsys, *FLOW, "--json")[1])
+    assert (plane["dim"], plane["lode"], len(plane["direction"])) == (2, None, 2)
+    assert plane["limit"] == pytest.approx(1.000070, abs=1e-6)
+    law = granular.CIDR(granular.GLASS_BEADS.friction, granular.EXAMPLE_COMPACTION)
+    says = granular.verdict(law, granular.BaseState(0.2, 0.55, 0.1), dim=3, lode=0.1)
+    assert found["direction"] == list(says.direction)
+    assert found["bound"] == says.bound
+    assert found["limit"] < plane["limit"]
+
+
+@pytest.mark.parametrize(
+    ("more", "sentence"),
+    [
+        (["--dim", "4"], "dim must be an integer >= 2 and <= 3, got 4"),
+        (["--lode", "0.1"], "lode must be left out where dim is 2"),
+        (["--dim", "3", "--lode", "nan"], "lode must be a finite number, got nan"),
+        (["--dim", "3", "--lode", "0.6"], "lode must be an angle between -pi/6 and pi/6"),
+        (["--c", "0.1"], "c must be left out for the law cidr"),
+    ],
+)
+def test_granular_options_out_of_place(capsys, more, sentence):
+    code, out, err = run(capsys, *FLOW, *more)
+    assert (code, out) == (2, "")
+    assert sentence in err
+    assert "Traceback" not in err
+
+
+def test_cohesion_raises_the_yield_stress(capsys):
+    """Y = c + mu p + 2 K ||D||."""
+    flow = ["granular", "--law", "bingham", "--p", "0.2", "--I", "0.1", "--mu", "0.4", "--json"]
+    tau, more = (json.loads(run(capsys, *flow, "--c", c)[1])["tau"] for c in ("0", "0.07"))
+    assert more - tau == pytest.approx(0.07)
 
 
 def test_as_a_module():

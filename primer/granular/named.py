@@ -31,31 +31,32 @@ def named(
     mu: float | None = None,
     K: float | None = None,
     n: float | None = None,
+    c: float | None = None,
     Y: str | None = None,
     f: str | None = None,
     parameters: dict[str, float] | None = None,
 ) -> Law:
     """The law of one of the names LAWS; glass beads where mu1, mu2, I0 are left out, mu(I) at the state where mu is.
 
-    K and n are those of ``DruckerPrager`` (0.1, and 1 for "bingham", 0.5 for "herschel-bulkley", where left out), Y, f
-    and parameters those of ``TextLaw``.
+    K, n and c are those of ``DruckerPrager`` (0.1, 1 for "bingham" or 0.5 for "herschel-bulkley", and 0, where left
+    out), Y, f and parameters those of ``TextLaw``.
 
     Raises
     ------
-    ValueError    for another name, or for K, n, Y, f or parameters that the law does not have
+    ValueError    for another name, or for K, n, c, Y, f or parameters that the law does not have
     """
     if law not in LAWS:
         raise ValueError(f"law must be one of {', '.join(LAWS)}, got {shown(law)}")
     viscous, text = law in ("bingham", "herschel-bulkley"), law == "text"
-    own = ("K", K, viscous), ("n", n, law == "herschel-bulkley"), ("Y", Y, text), ("f", f, text)
-    for name, value, taken in (*own, ("parameters", parameters or None, text)):
+    own = ("K", K, viscous), ("n", n, law == "herschel-bulkley"), ("c", c, viscous)
+    for name, value, taken in (*own, ("Y", Y, text), ("f", f, text), ("parameters", parameters or None, text)):
         if value is not None and not taken:
             raise ValueError(f"{name} must be left out for the law {law}, which has none, got {shown(value)}")
     if text and Y is None:
         raise ValueError("Y must be given for the law text, such as 'm*p', got None")
     beads = GLASS_BEADS.friction
     friction = MuI(_or(mu1, beads.mu1), _or(mu2, beads.mu2), _or(I0, beads.I0))
-    constant, consistency = _or(mu, float(friction.mu(I))), _or(K, 0.1)
+    constant, consistency, cohesion = _or(mu, float(friction.mu(I))), _or(K, 0.1), _or(c, 0.0)
     laws: dict[str, Callable[[], Law]] = {
         "coulomb": lambda: Coulomb(constant),
         "mui": lambda: IncompressibleMuI(friction),
@@ -63,8 +64,8 @@ def named(
         "cidr": lambda: CIDR(friction, compaction),
         "regularised": lambda: IncompressibleMuI(RegularisedMuI(friction.mu1, friction.mu2, friction.I0)),
         "mui-phii": lambda: MuIPhiI(friction),
-        "bingham": lambda: DruckerPrager(constant, consistency, 1.0, 0.0, d, rho),
-        "herschel-bulkley": lambda: DruckerPrager(constant, consistency, _or(n, 0.5), 0.0, d, rho),
+        "bingham": lambda: DruckerPrager(constant, consistency, 1.0, cohesion, d, rho),
+        "herschel-bulkley": lambda: DruckerPrager(constant, consistency, _or(n, 0.5), cohesion, d, rho),
         "text": lambda: TextLaw(str(Y), _or(f, "0"), parameters or {}),
     }
     return laws[law]()
