@@ -4,7 +4,6 @@ import json
 from pathlib import Path
 
 from primer.lab import course
-from primer.pdf import browser, printed
 
 
 def add_command(commands):
@@ -28,6 +27,7 @@ def _run(options):
 
     if not possible():
         raise ValueError("nbconvert must be installed to write slides, got none: python -m pip install jupyterlab")
+    from primer.view.pdf import browser, printed
     from primer.view.slides import pages
 
     program = browser() if options.pdf else None

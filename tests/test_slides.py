@@ -49,8 +49,8 @@ def test_a_folder_that_cannot_be(tmp_path, capsys):
 
 
 def test_pdf_without_a_browser_is_one_sentence_and_writes_nothing(tmp_path, capsys, monkeypatch):
-    from primer import pdf
     from primer.__main__ import main
+    from primer.view import pdf
 
     monkeypatch.setattr(pdf, "_PLACES", ())
     monkeypatch.setenv("PATH", str(tmp_path))
@@ -62,7 +62,7 @@ def test_pdf_without_a_browser_is_one_sentence_and_writes_nothing(tmp_path, caps
 
 
 def test_a_browser_that_prints_half_leaves_the_old_file(tmp_path):
-    from primer import pdf
+    from primer.view import pdf
 
     fake, page, out = tmp_path / "fake", tmp_path / "page.html", tmp_path / "page.pdf"
     fake.write_text('#!/bin/sh\nfor a; do case $a in --print-to-pdf=*) printf %%PDF-1.4 >"${a#*=}";; esac; done\n')
@@ -78,8 +78,9 @@ def test_a_browser_that_prints_half_leaves_the_old_file(tmp_path):
 @pytest.mark.slow
 def test_every_page_is_printed(tmp_path, capsys, monkeypatch):
     """One notebook, as PDFs by the real browser."""
-    from primer import pdf, slides
+    from primer import slides
     from primer.__main__ import main
+    from primer.view import pdf
 
     try:
         pdf.browser()
