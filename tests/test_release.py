@@ -80,7 +80,7 @@ def test_the_sdist_holds_what_one_needs_to_work_on_it(built):
     _, _, names = built
     for folder in ("primer", "figures", "tests", "notebooks"):
         assert ours(folder) <= names, ours(folder) - names
-    top = "README.md CHANGELOG.md CONTRIBUTING.md CITATION.cff LICENSE LICENSE-prose pyproject.toml .ci/run .gitignore"
+    top = "README.md CHANGELOG.md CONTRIBUTING.md CITATION.cff LICENSE LICENSE-prose pyproject.toml .ci/run .gitignore paper.md"
     assert {*top.split(), ".pre-commit-config.yaml", "PKG-INFO"} <= names
     rooms = {"primer", "figures", "tests", "notebooks", ".ci"}
     assert {name.split("/")[0] for name in names if "/" in name} == rooms
@@ -93,6 +93,18 @@ def test_the_citation_has_what_the_format_requires():
     assert len(keys) == len(set(keys))
     assert "cff-version: 1.2.0" in lines
     assert "license: BSD-3-Clause" in lines
+
+
+def test_the_paper_is_cited_alike_everywhere():
+    for name in ("CITATION.cff", "paper.bib", "README.md"):
+        assert "10.1098/rspa.2016.0846" in read(name), name
+        assert "1610.05135" in read(name), name
+    paper = read("paper.md")
+    assert set(re.findall(r"@([A-Za-z]+\d{4})", paper)) == set(
+        re.findall(r"^@\w+\{(\w+),", read("paper.bib"), flags=re.M)
+    )
+    assert re.findall(r"- name: (.+)", paper) == re.findall(r"- name: (.+)", read("CITATION.cff"))
+    assert all(f"\n# {part}\n" in paper for part in ("Summary", "Statement of need", "Audience", "How it is used"))
 
 
 def test_versions_agree_everywhere():
