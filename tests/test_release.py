@@ -80,8 +80,8 @@ def test_the_sdist_holds_what_one_needs_to_work_on_it(built):
     _, _, names = built
     for folder in ("primer", "figures", "tests", "notebooks"):
         assert ours(folder) <= names, ours(folder) - names
-    top = "README.md CHANGELOG.md CONTRIBUTING.md CITATION.cff LICENSE LICENSE-prose pyproject.toml .ci/run .gitignore paper.md"
-    assert {*top.split(), ".pre-commit-config.yaml", "PKG-INFO"} <= names
+    top = "README.md CHANGELOG.md CONTRIBUTING.md CITATION.cff LICENSE LICENSE-prose pyproject.toml .ci/run .gitignore"
+    assert {*top.split(), "paper.md", "paper.bib", ".pre-commit-config.yaml", "PKG-INFO"} <= names
     rooms = {"primer", "figures", "tests", "notebooks", ".ci"}
     assert {name.split("/")[0] for name in names if "/" in name} == rooms
 
