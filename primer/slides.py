@@ -12,11 +12,12 @@ def add_command(commands):
         "slides",
         help="write slides and a handout of each notebook, for any browser, without network",
         description="Write NN_name.slides.html (arrow keys turn the pages) and NN_name.handout.html (to read, or to "
-        "print) of each executed notebook into the folder OUT.",
+        "print) of each executed notebook into the folder OUT; with --pdf, both also as PDF.",
         epilog="example: primer slides for-class",
         allow_abbrev=False,
     )
     parser.add_argument("out", metavar="OUT", type=Path, help="folder of the pages")
+    parser.add_argument("--pdf", action="store_true", help="PDFs as well, printed by the Chromium or Chrome found here")
     parser.add_argument("--json", action="store_true", help="print one JSON object")
     parser.set_defaults(command=_run)
 
@@ -26,8 +27,10 @@ def _run(options):
 
     if not possible():
         raise ValueError("nbconvert must be installed to write slides, got none: python -m pip install jupyterlab")
+    from primer.view.pdf import browser, printed
     from primer.view.slides import pages
 
+    program = browser() if options.pdf else None
     written = []
     try:
         options.out.mkdir(parents=True, exist_ok=True)
@@ -36,6 +39,10 @@ def _run(options):
                 name = f"{path.stem}.{kind}.html"
                 (options.out / name).write_text(page, encoding="utf-8", newline="\n")
                 written.append(name)
+                if program:
+                    target = (options.out / name).with_suffix(".pdf")
+                    printed(program, options.out / name, target)
+                    written.append(target.name)
     except OSError as error:
         raise ValueError(
             f"OUT must be a folder that can be written, got {str(options.out)!r} ({error.strerror})"

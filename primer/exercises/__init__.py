@@ -36,6 +36,7 @@ from primer.exercises.scheme_or_pde import (
     check_04_3,
     check_04_5,
 )
+from primer.exercises.sheets import Mark, mark, numbered, sheet
 from primer.exercises.speed_against_error import ask_05_1, ask_05_2, ask_05_3, check_05_1, check_05_2, check_05_3
 from primer.exercises.start_here import ask_00_1, ask_00_2, check_00_1, check_00_2
 from primer.exercises.testing_a_pde import (
@@ -55,6 +56,7 @@ from primer.exercises.when_freezing_lies import ask_12_1, ask_12_2, check_12_1, 
 from primer.exercises.write_it_yourself import ask_09_1, ask_09_2, check_09_1, check_09_2
 
 __all__ = [
+    "Mark",
     "ask_00_1",
     "ask_00_2",
     "ask_01_1",
@@ -137,4 +139,7 @@ __all__ = [
     "check_11_2",
     "check_12_1",
     "check_12_2",
+    "mark",
+    "numbered",
+    "sheet",
 ]
