@@ -3,14 +3,19 @@
 import json
 import random
 
+import numpy as np
 import pytest
 
-from primer import conditions
+from primer import BaseState, conditions, granular
 from primer.__main__ import main
 
 INCOMPRESSIBLE = (  # eq. (mu(I)-system-mom), linearised, the stress angle eliminated; t = 1, A = n
     "u_t = n*(u_xx - v_xy) + u_yy + v_xy - (1 + B)*p_x; v_t = n*(v_yy - u_xy) + u_xy + v_xx - (1 - B)*p_y; "
     "u_x + v_y = 0"
+)
+MATRIX = (  # rho phi u_t = -(M + N) u of eq. (matrix), entry by entry; tau stands for ||tau||/(2 ||D||)
+    "u_t = (A + (1 + B)*(1 + C)/Gamma)*u_xx + tau*u_yy + (tau - A + (1 + B)*(1 - C)/Gamma)*v_xy; "
+    "v_t = (A + (1 - B)*(1 - C)/Gamma)*v_yy + tau*v_xx + (tau - A + (1 - B)*(1 + C)/Gamma)*u_xy"
 )
 
 
@@ -78,6 +83,51 @@ def test_the_incompressible_rheology_has_the_papers_condition():
         truth = n < 0.5 and 4 * n**2 - 4 * n + B**2 > 0
         assert (found.kind(n=n, B=B) == "ill-posed") == truth
     assert found.kind(n=0.0, B=0.4) == "ill-posed"
+
+
+def _smallest(A, B, C, Gamma, tau):
+    """The smallest Re of an eigenvalue of M + N over 721 directions, from its three dyads."""
+    angle = np.linspace(0, np.pi, 721)
+    x, y = np.cos(angle), np.sin(angle)
+    dyads = [(A, (x, -y), (x, -y)), (1 / Gamma, ((1 + B) * x, (1 - B) * y), ((1 + C) * x, (1 - C) * y))]
+    dyads.append((tau, (y, x), (y, x)))
+    matrix = sum(a * np.einsum("in,jn->nij", np.array(u), np.array(v)) for a, u, v in dyads)
+    return np.linalg.eigvals(matrix).real.min()
+
+
+@pytest.mark.slow
+def test_the_hypotheses_of_the_theorem_suffice_for_the_matrix():
+    """For M + N: (18) (Cmu-well-posed-cond) is B = C, (19) (ineq-for-thm) A > 0 and Gamma > 0; tau > 0 always.
+
+    With any signs the conditions are what a scan of the directions says. The third branch, of phi, is left out.
+    """
+    found = conditions(MATRIX, check=6)
+    assert not found.withdrawn
+    draw, kinds = random.Random(3), []
+    for k in range(50):
+        A, Gamma, tau = (round(10 ** draw.uniform(-1.5, 1), 2) for _ in range(3))
+        B = round(draw.uniform(-2, 2), 2)
+        assert found.kind(A=A, B=B, C=B, Gamma=Gamma, tau=tau) == "well-posed"
+        C = round(draw.uniform(-2, 2), 2)
+        A, Gamma, tau = (z * (1 if k % 2 else draw.choice((-1, 1))) for z in (A, Gamma, tau))
+        smallest = _smallest(A, B, C, Gamma, tau)
+        kinds.append(found.kind(A=A, B=B, C=C, Gamma=Gamma, tau=tau))
+        if abs(smallest) > 1e-3:
+            assert (kinds[-1] == "ill-posed") == (smallest < 0), (A, B, C, Gamma, tau)
+    assert "ill-posed" in kinds[1::2]  # A, Gamma, tau > 0 alone do not suffice
+    assert "well-posed" in kinds[1::2]
+
+
+@pytest.mark.slow
+def test_cidr_meets_the_conditions_at_random_states():
+    found = conditions(MATRIX, check=2)
+    law, draw = granular.CIDR(granular.GLASS_BEADS.friction, granular.EXAMPLE_COMPACTION), random.Random(4)
+    for _ in range(20):
+        phi, I = draw.uniform(0.51, 0.59), 10 ** draw.uniform(-3, 0)
+        p = draw.uniform(0.05, 0.9) * law.p_max(phi, I)
+        c = granular.coefficients(law, BaseState(p, phi, I))
+        values = {"A": c.A, "B": c.B, "C": c.C, "Gamma": c.Gamma, "tau": c.t}
+        assert found.kind(**{name: float(value) for name, value in values.items()}) == "well-posed"
 
 
 @pytest.mark.parametrize(
