@@ -33,5 +33,5 @@ def draw(_):
     draw_tychonoff(left, TIMES)
     left.set(title="(a) the heat equation, from u = 0")
     draw_norms(right, ORDERS, T)
-    right.set(title="(b) backward heat, in BC^k")
+    right.set(title="(b) backward heat, in $BC^k$")
     return figure

@@ -16,7 +16,7 @@ def draw_tychonoff(ax, times):
         ax.plot(x, tychonoff(x, t), ls=ls, label=f"t = {t:g}")
     ax.axhline(0, color=STEADY, lw=0.8)
     ax.set_yscale("symlog", linthresh=1e-3)
-    ax.set(xlabel="x", ylabel="u", xlim=(-2.2, 2.2), ylim=(-3e-4, 5))
+    ax.set(xlabel="x", ylabel="u, linear below 0.001", xlim=(-2.2, 2.2), ylim=(-3e-4, 5))
     legend_below(ax)
 
 
@@ -24,7 +24,7 @@ def draw_norms(ax, orders, t):
     """log10 of BC^k norms of e^{-sqrt n} sin(n x) over n, and of the largest value at time t under u_t = -u_xx."""
     n = np.arange(1.0, 1001)
     for k, ls in zip(orders, _DASHES, strict=False):
-        ax.semilogx(n, log_hadamard(n, k) / np.log(10), ls=ls, label=f"data in BC^{k}")
+        ax.semilogx(n, log_hadamard(n, k) / np.log(10), ls=ls, label=f"data in $BC^{{{k}}}$")
     ax.semilogx(n, log_hadamard(n, 0, t) / np.log(10), color="black", lw=2, label=f"solution, t = {t:g}")
     ax.set(xlabel="n", ylabel="log₁₀ of the norm", xlim=(1, 1000), ylim=(-14, 14))
     legend_below(ax)

@@ -25,7 +25,7 @@ def draw_saved(ax, saved):
     for j, (s, marker) in enumerate(zip(saved.s, "osv^D", strict=False)):
         (line,) = ax.loglog(saved.noise, saved.error[:, j], marker, ms=4, label=f"s = {s / saved.T:g} T")
         ax.loglog(saved.noise, saved.bound[:, j], color=line.get_color(), lw=1, ls=_DASHES[j % 4])
-    ax.set(xlabel="rms of the noise, δ", ylabel="rms error at s")
+    ax.set(xlabel="rms of the noise, δ", ylabel="rms error at s, below its bound (line)")
     legend_below(ax)
 
 
