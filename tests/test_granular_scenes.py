@@ -413,6 +413,8 @@ def test_a_report_holds_what_the_functions_give(law, options):
     expected = {
         "law": repr(made),
         "state": {name: getattr(state, name) for name in ("p", "phi", "I", "d", "rho")},
+        "dim": 2,
+        "lode": None,
         "D": state.D,
         "tau": made.Y(state.p, state.phi, state.I),
         "div_u": state.div_u(made),
